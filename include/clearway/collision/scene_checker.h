@@ -1,0 +1,29 @@
+// The state checker over a scene in this process.
+#pragma once
+
+#include <memory>
+
+#include "clearway/collision/state_checker.h"
+
+namespace clearway {
+
+// Checks states against one snapshot: the local checker, and with a mirror's snapshot the mirrored
+// one. FCL does shape against shape; an exception of it counts as contact.
+class SceneChecker : public StateChecker {
+ public:
+  // `robot` must pass Validate.
+  SceneChecker(ScenePtr scene, Robot robot);
+  ~SceneChecker() override;
+
+  absl::StatusOr<CheckReply> Check(const StateBatch& states,
+                                   const CheckOptions& options) const override;
+  const Robot& robot() const override;
+  std::uint64_t version() const override;
+  Time stamp() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace clearway

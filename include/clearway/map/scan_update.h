@@ -1,0 +1,45 @@
+// What one scan says of each voxel.
+#pragma once
+
+#include <vector>
+
+#include "absl/container/flat_hash_map.h"
+#include "clearway/map/voxel_block.h"
+#include "clearway/map/voxel_key.h"
+
+namespace clearway {
+
+// The set of voxels that a scan saw free, hit, or ended in, as bit masks per block: each voxel is
+// updated at most once per scan (OctoMap's computeUpdate). Not thread-safe; threads fill one each
+// and Merge.
+class ScanUpdate {
+ public:
+  struct Block {
+    BlockMask free;  // traversed by a ray
+    BlockMask hit;   // a ray that raises this map ended here
+    BlockMask end;   // any ray ended here: traversal does not count as free
+  };
+
+  void MarkFree(VoxelKey key) { BlockFor(key).free.Set(IndexInBlock(key)); }
+  void MarkHit(VoxelKey key) {
+    Block& block = BlockFor(key);
+    block.hit.Set(IndexInBlock(key));
+    block.end.Set(IndexInBlock(key));
+  }
+  void MarkEnd(VoxelKey key) { BlockFor(key).end.Set(IndexInBlock(key)); }
+
+  void Merge(const ScanUpdate& other);
+  bool Empty() const { return blocks_.empty(); }
+  const Block* Find(BlockKey key) const;
+  std::vector<BlockKey> SortedKeys() const;
+
+ private:
+  Block& BlockFor(VoxelKey key);
+
+  absl::flat_hash_map<BlockKey, std::size_t> index_;
+  std::vector<Block> blocks_;
+  BlockKey last_key_;  // the block written last; rays stay in one block for several steps
+  std::size_t last_ = 0;
+};
+
+}  // namespace clearway

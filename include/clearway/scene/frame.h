@@ -1,0 +1,73 @@
+// What a Dynamic SLAM system says at one instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "clearway/base/time.h"
+#include "clearway/geometry/pose.h"
+
+namespace clearway {
+
+// An object's id, which is also the label of its points.
+using ObjectId = std::int32_t;
+inline constexpr ObjectId kStaticLabel = 0;   // background
+inline constexpr ObjectId kIgnoreLabel = -1;  // leave the point out
+
+// H_W of eq. (2): T_W_O(stamp of the frame) = H_W * T_W_O(from).
+struct ObjectMotion {
+  ObjectId id = 0;
+  Pose H_W;
+  Time from;  // before the frame's stamp
+};
+
+// The pose of the source's own box B of an object, where the source tracks poses instead of
+// motions.
+struct ObjectPose {
+  ObjectId id = 0;
+  Pose T_W_B;
+};
+
+// One labelled scan with the poses and motions that belong to it. Points are expected
+// motion-compensated to `stamp`. Plain data: Validate says whether it is well formed. Points that
+// are NaN or infinite are no error: they are dropped and counted.
+struct Frame {
+  std::string sensor_id;
+  std::uint64_t sequence = 0;
+  Time stamp;
+  Pose T_W_S;
+
+  std::vector<Eigen::Vector3f> points_S;  // metres
+  std::vector<ObjectId> labels;           // one per point
+  // Empty, or one per point: non-zero marks a ray without a return, which clears up to the point
+  // and hits nothing.
+  std::vector<std::uint8_t> no_return;
+  // Empty (every ray starts at S's origin), or one per point.
+  std::vector<Eigen::Vector3f> origins_S;
+
+  std::vector<ObjectMotion> motions;  // at most one of motion and pose per object
+  std::vector<ObjectPose> poses;
+};
+
+// Bounds on what a frame may hold.
+struct FrameLimits {
+  std::size_t max_points = 2'000'000;
+  std::size_t max_objects = 4'096;
+  double max_coordinate_m = 100'000;  // of positions; also bounded by what the grid can address
+  bool operator==(const FrameLimits&) const = default;
+};
+
+// INVALID_ARGUMENT or RESOURCE_EXHAUSTED, naming the field as in the wire format
+// ("motions[2].world_motion") and the limit: arrays of different lengths, labels below -1, poses
+// that are not finite or not of unit rotation, ids that occur twice, a motion that turns by more
+// than 0.9 half turns (its direction would be ambiguous), a motion that does not start before the
+// stamp.
+absl::Status Validate(const Frame& frame, const FrameLimits& limits);
+
+// Checks one pose; `field` names it in the message.
+absl::Status ValidatePose(const std::string& field, const Pose& pose, double max_coordinate_m);
+
+}  // namespace clearway

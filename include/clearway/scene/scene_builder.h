@@ -1,0 +1,61 @@
+// Makes scene versions of frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "clearway/base/thread_pool.h"
+#include "clearway/scene/frame.h"
+#include "clearway/scene/scene_snapshot.h"
+
+namespace clearway {
+
+// What became of a frame.
+struct FrameReport {
+  std::size_t points_used = 0;
+  std::size_t points_ignored = 0;  // label -1
+  std::size_t points_not_finite = 0;
+  std::size_t points_self = 0;  // on the robot's own body
+  std::size_t points_out_of_bounds = 0;
+  std::size_t motions_ignored = 0;  // for objects that are not known
+  std::size_t objects_created = 0;
+  std::size_t objects_dropped = 0;
+};
+
+// The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at
+// a time; what Publish returned may be read by any thread meanwhile. The result depends on the
+// frames alone, not on the number of threads.
+class SceneBuilder {
+ public:
+  // `params` must pass Validate. `pool` must outlive the builder.
+  SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool);
+
+  // Applies the frame whole, or refuses it whole and changes nothing: what Validate(frame) refuses;
+  // FAILED_PRECONDITION for a stamp before the scene's newest; RESOURCE_EXHAUSTED for more objects
+  // than FrameLimits allows; INVALID_ARGUMENT for poses outside the addressable space.
+  absl::StatusOr<FrameReport> Apply(const Frame& frame);
+
+  // The scene so far as an immutable version. Versions count from 1; without a change since, the
+  // same version again.
+  ScenePtr Publish();
+
+  // A known static map; it must have the scene's resolution. Voxels it has observed replace those
+  // of the scene.
+  absl::Status LoadPrior(const VoxelMap& prior_W);
+  // Makes the static map's voxels in the box unknown again.
+  void ClearRegion(const Aabb& box_W);
+  void SetKeepOut(std::vector<Aabb> boxes_W);
+  // The empty scene again; versions go on counting.
+  void Reset();
+
+ private:
+  struct Impl;  // the scratch of one frame
+  SceneSnapshot scene_;
+  FrameLimits limits_;
+  ThreadPool* pool_;
+  ScenePtr published_;
+  bool changed_ = true;
+};
+
+}  // namespace clearway

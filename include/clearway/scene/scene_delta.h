@@ -1,0 +1,60 @@
+// The one difference type: what a mirror receives, what a full sync is, what a checkpoint holds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/scene/scene_snapshot.h"
+
+namespace clearway {
+
+// The voxels of one block that differ.
+struct BlockDelta {
+  BlockKey key;
+  BlockMask changed;
+  BlockMask observed;             // of the changed voxels, those observed afterwards
+  std::vector<LogOdds> log_odds;  // of `observed` voxels, by ascending index
+  bool operator==(const BlockDelta&) const = default;
+};
+
+using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
+
+// One object that is new or differs. All but the map is sent whole: it is small.
+struct ObjectDelta {
+  ObjectId id = 0;
+  bool fresh = false;  // the map starts empty: the object is new, or its map was begun anew
+  MapDelta map_O;
+  std::vector<StampedPose> history;
+  std::optional<Twist> velocity_O;
+  std::optional<Pose> T_B_O;
+  Time first_seen;
+  Time last_seen;
+  std::int64_t frames_seen = 0;
+  bool bridged = false;
+};
+
+// What turns version `from` into version `to`. From version 0, the empty scene, it is the whole
+// scene. A value.
+struct SceneDelta {
+  std::uint64_t from_version = 0;
+  std::uint64_t to_version = 0;
+  Time stamp;
+  std::optional<SceneParams> params;  // when from_version is 0 or they changed
+  MapDelta static_map_W;
+  std::vector<ObjectDelta> objects;  // ascending ids
+  std::vector<ObjectId> removed;     // ascending ids
+};
+
+// Takes time in proportion to the blocks written between the two. `from` null: the empty scene,
+// version 0.
+SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to);
+
+// Apply(a, Diff(a, b)) == b, bit for bit. `base` null: the empty scene. FAILED_PRECONDITION if the
+// delta starts from another version than base's; INVALID_ARGUMENT if it is not well formed (it may
+// come from the network).
+absl::StatusOr<SceneSnapshot> Apply(const SceneSnapshot* base, const SceneDelta& delta);
+
+}  // namespace clearway

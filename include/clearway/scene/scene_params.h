@@ -1,0 +1,43 @@
+// Everything that decides what a scene makes of its frames.
+#pragma once
+
+#include <vector>
+
+#include "absl/status/status.h"
+#include "clearway/base/time.h"
+#include "clearway/geometry/aabb.h"
+#include "clearway/map/occupancy_model.h"
+#include "clearway/map/ray.h"
+
+namespace clearway {
+
+// What of an object counts as occupied.
+enum class SolidMode { kConvexHull = 0, kVoxels = 1 };
+
+// Parameters of a scene; they travel with it to mirrors and checkpoints. A plain value.
+struct SceneParams {
+  double resolution_m = 0.1;         // of the static map
+  double object_resolution_m = 0.1;  // of the objects' maps
+  OccupancyProbabilities occupancy;
+  RayOptions rays;
+
+  SolidMode solid = SolidMode::kConvexHull;
+  // Whether rays also clear voxels of an object's own map that they cross on their way to it.
+  bool clear_objects_by_rays = false;
+
+  Duration horizon = std::chrono::seconds(5);           // how long a motion is extrapolated
+  Duration object_lifetime = std::chrono::seconds(10);  // unseen for longer: dropped
+  Duration history = std::chrono::seconds(10);          // how far back poses are kept
+
+  Aabb bounds_W{Eigen::Vector3d::Constant(-1e5), Eigen::Vector3d::Constant(1e5)};
+  std::vector<Aabb> keep_out_W;     // these read as occupied by the static map
+  std::vector<Aabb> self_filter_S;  // points in here are the robot's own body: left out
+
+  OccupancyModel Model() const { return OccupancyModel(occupancy); }
+  bool operator==(const SceneParams&) const = default;
+};
+
+// INVALID_ARGUMENT naming the field, the value and the limit.
+absl::Status Validate(const SceneParams& params);
+
+}  // namespace clearway

@@ -1,0 +1,96 @@
+#include "clearway/map/voxel_map.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+constexpr VoxelBlock kEmptyBlock{};
+
+template <class MaskOf>
+Aabb BoxAround(const VoxelMap& map, MaskOf mask_of) {
+  Aabb box;
+  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    mask_of(block).ForEach([&](int index) { box.Extend(map.grid().BoxOf(VoxelAt(key, index))); });
+  });
+  return box;
+}
+
+}  // namespace
+
+VoxelState VoxelMap::State(VoxelKey key) const {
+  const VoxelBlock* block = blocks_.Find(BlockOf(key));
+  return block == nullptr ? VoxelState::kUnknown : block->State(IndexInBlock(key));
+}
+
+std::optional<LogOdds> VoxelMap::Find(VoxelKey key) const {
+  const VoxelBlock* block = blocks_.Find(BlockOf(key));
+  const int index = IndexInBlock(key);
+  if (block == nullptr || !block->observed.Test(index)) return std::nullopt;
+  return block->log_odds[index];
+}
+
+void VoxelMap::PutBlock(BlockKey key, const VoxelBlock& block) {
+  const VoxelBlock* before = blocks_.Find(key);
+  if (before == nullptr) before = &kEmptyBlock;
+  if (*before == block) return;
+  observed_count_ += block.observed.Count() - before->observed.Count();
+  occupied_count_ += block.occupied.Count() - before->occupied.Count();
+  blocks_.Put(key, block);
+}
+
+void VoxelMap::Update(const ScanUpdate& update) {
+  for (BlockKey key : update.SortedKeys()) {
+    const ScanUpdate::Block& scan = *update.Find(key);
+    const VoxelBlock* before = blocks_.Find(key);
+    VoxelBlock block = before == nullptr ? kEmptyBlock : *before;
+    BlockMask misses = scan.free;
+    misses.Subtract(scan.end);
+    misses.ForEach([&](int i) { block.Set(i, model_.AfterMiss(block.log_odds[i]), model_); });
+    scan.hit.ForEach([&](int i) { block.Set(i, model_.AfterHit(block.log_odds[i]), model_); });
+    PutBlock(key, block);
+  }
+}
+
+void VoxelMap::Set(VoxelKey key, LogOdds value) {
+  const VoxelBlock* before = blocks_.Find(BlockOf(key));
+  VoxelBlock block = before == nullptr ? kEmptyBlock : *before;
+  block.Set(IndexInBlock(key), std::clamp(value, model_.clamp_min, model_.clamp_max), model_);
+  PutBlock(BlockOf(key), block);
+}
+
+void VoxelMap::Forget(const Aabb& box) {
+  std::vector<std::pair<BlockKey, VoxelBlock>> changed;
+  const double limit_m = grid_.limit_m();
+  const Eigen::Vector3d low = box.min.cwiseMax(-limit_m), high = box.max.cwiseMin(limit_m);
+  if ((low.array() > high.array()).any()) return;
+  const BlockKey first = BlockOf(grid_.KeyOf(low)), last = BlockOf(grid_.KeyOf(high));
+  blocks_.ForEachIn(first, last, [&](BlockKey key, const VoxelBlock& before) {
+    VoxelBlock block = before;
+    before.observed.ForEach([&](int index) {
+      if (box.Contains(grid_.CenterOf(VoxelAt(key, index)))) block.Forget(index);
+    });
+    if (block != before) changed.emplace_back(key, block);
+  });
+  for (const auto& [key, block] : changed) PutBlock(key, block);
+}
+
+Aabb VoxelMap::ObservedBox() const {
+  return BoxAround(*this, [](const VoxelBlock& b) -> const BlockMask& { return b.observed; });
+}
+
+Aabb VoxelMap::OccupiedBox() const {
+  return BoxAround(*this, [](const VoxelBlock& b) -> const BlockMask& { return b.occupied; });
+}
+
+bool operator==(const VoxelMap& a, const VoxelMap& b) {
+  if (!(a.grid() == b.grid()) || !(a.model() == b.model())) return false;
+  bool equal = true;
+  BlockTree::ForEachDifference(a.blocks(), b.blocks(),
+                               [&](BlockKey, const VoxelBlock* x, const VoxelBlock* y) {
+                                 equal = equal && x != nullptr && y != nullptr && *x == *y;
+                               });
+  return equal;
+}
+
+}  // namespace clearway
