@@ -21,15 +21,6 @@ Aabb MeshBox(const Mesh& mesh) {
   return box;
 }
 
-bool ConvexContains(const Mesh& mesh, const Eigen::Vector3d& p) {
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d& origin = mesh.vertices[a];
-    const Eigen::Vector3d normal = (mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin);
-    if (normal.dot(p - origin) > 0) return false;
-  }
-  return !mesh.triangles.empty();
-}
-
 // The solid angle of a triangle seen from p; Van Oosterom and Strackee, 1983.
 double SolidAngle(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
                   const Eigen::Vector3d& p) {
@@ -79,10 +70,19 @@ bool Contains(const Shape& shape, const Eigen::Vector3d& p_G) {
             return std::hypot(p_G.x(), p_G.y()) <= c.radius_m &&
                    std::abs(p_G.z()) <= c.length_m / 2;
           },
-          [&](const ConvexPolytope& c) { return ConvexContains(*c.mesh, p_G); },
+          [&](const ConvexPolytope& c) { return NearHull(*c.mesh, p_G, 0); },
           [&](const TriangleMesh& t) { return WindingContains(*t.mesh, p_G); },
       },
       shape);
+}
+
+bool NearHull(const Mesh& hull, const Eigen::Vector3d& p, double margin_m) {
+  for (const auto& [a, b, c] : hull.triangles) {
+    const Eigen::Vector3d& origin = hull.vertices[a];
+    const Eigen::Vector3d normal = (hull.vertices[b] - origin).cross(hull.vertices[c] - origin);
+    if (normal.dot(p - origin) > margin_m * normal.norm()) return false;
+  }
+  return !hull.triangles.empty();
 }
 
 }  // namespace clearway

@@ -58,4 +58,8 @@ Aabb BoundingBox(const Shape& shape);
 // it is closed: by the winding number, Jacobson et al., "Robust Inside-Outside Segmentation", 2013.
 bool Contains(const Shape& shape, const Eigen::Vector3d& p_G);
 
+// Whether p lies in the convex hull or at most margin_m from every face's plane that it is outside
+// of: true for all points within margin_m of the hull, and for a few more near its edges.
+bool NearHull(const Mesh& hull, const Eigen::Vector3d& p, double margin_m);
+
 }  // namespace clearway

@@ -32,8 +32,10 @@ std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O);
 // A moving object as of one scene version. Immutable once published; any thread may read it.
 struct MovingObject {
   ObjectId id = 0;
-  VoxelMap map_O;  // hits in O
+  VoxelMap map_O{0.1};  // hits in O
+  // Both follow from map_O (see WithMap).
   std::shared_ptr<const Solid> solid;
+  Aabb observed_box_O;
 
   // Poses by ascending stamp; never empty. The last one, at t_k, is what predictions start from.
   std::vector<StampedPose> history;
@@ -52,6 +54,9 @@ struct MovingObject {
   bool AtRest() const;  // no motion known, or none at all
   double SpeedMps() const { return velocity_O ? velocity_O->linear.norm() : 0.0; }
 };
+
+// The object with another map, its solid and box made to fit.
+MovingObject WithMap(MovingObject object, VoxelMap map_O);
 
 // Where an object is at a time.
 struct PredictedPose {

@@ -50,12 +50,14 @@ class SceneBuilder {
   void Reset();
 
  private:
-  struct Impl;  // the scratch of one frame
-  SceneSnapshot scene_;
+  absl::Status CheckFits(const Frame& frame) const;
+
+  SceneSnapshot scene_;  // its version is the one published last
   FrameLimits limits_;
   ThreadPool* pool_;
   ScenePtr published_;
-  bool changed_ = true;
+  bool has_frames_ = false;
+  bool changed_ = true;  // since published_
 };
 
 }  // namespace clearway

@@ -25,8 +25,7 @@ using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
 // One object that is new or differs. All but the map is sent whole: it is small.
 struct ObjectDelta {
   ObjectId id = 0;
-  bool fresh = false;  // the map starts empty: the object is new, or its map was begun anew
-  MapDelta map_O;
+  MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::vector<StampedPose> history;
   std::optional<Twist> velocity_O;
   std::optional<Pose> T_B_O;

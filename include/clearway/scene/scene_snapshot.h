@@ -37,7 +37,7 @@ struct SceneSnapshot {
 
   const MovingObject* FindObject(ObjectId id) const;  // null if there is none
 
-  // 64 hex digits' worth of content: equal scenes have equal hashes on every machine and with any
+  // 32 hex digits (XXH3-128): equal scenes have equal hashes on every machine and with any
   // number of threads. Covers all but `version`.
   std::string Hash() const;
 };

@@ -1,0 +1,133 @@
+#include "clearway/scene/frame.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "absl/container/flat_hash_set.h"
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+constexpr double kUnitTolerance = 1e-4;
+constexpr double kMaxTurn = 0.9 * std::numbers::pi;
+
+absl::Status Invalid(const std::string& field, const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
+}
+
+absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
+  const std::size_t points = frame.points_S.size();
+  if (points > limits.max_points) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("points: ", points, " points; the limit is ", limits.max_points));
+  }
+  if (frame.motions.size() + frame.poses.size() > limits.max_objects) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("motions: ", frame.motions.size() + frame.poses.size(),
+                     " motions and poses; the limit is ", limits.max_objects));
+  }
+  const auto check = [&](const char* field, std::size_t size, bool may_be_empty) {
+    if (size == points || (may_be_empty && size == 0)) return absl::OkStatus();
+    return Invalid(field, absl::StrCat("has ", size, " entries for ", points, " points"));
+  };
+  if (auto status = check("labels", frame.labels.size(), false); !status.ok()) return status;
+  if (auto status = check("no_return", frame.no_return.size(), true); !status.ok()) return status;
+  return check("origins", frame.origins_S.size(), true);
+}
+
+absl::Status CheckLabels(const Frame& frame) {
+  for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+    if (frame.labels[i] < kIgnoreLabel) {
+      return Invalid(absl::StrCat("labels[", i, "]"),
+                     absl::StrCat("is ", frame.labels[i], "; the lowest label is -1"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckId(const std::string& field, ObjectId id, absl::flat_hash_set<ObjectId>& seen) {
+  if (id <= kStaticLabel) {
+    return Invalid(field, absl::StrCat("is ", id, "; object ids start at 1"));
+  }
+  if (!seen.insert(id).second) {
+    return Invalid(field, absl::StrCat("object ", id, " has more than one motion or pose"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, const Frame& frame,
+                         const FrameLimits& limits) {
+  const std::string motion_field = absl::StrCat(field, ".world_motion");
+  // A world motion far from the origin may carry a large translation: twice the coordinate limit.
+  if (auto status = ValidatePose(motion_field, motion.H_W, 2 * limits.max_coordinate_m);
+      !status.ok()) {
+    return status;
+  }
+  if (const double turn = Log(motion.H_W).angular.norm(); turn > kMaxTurn) {
+    return Invalid(motion_field, absl::StrCat("turns by ", turn, " rad in one step; the limit is ",
+                                              kMaxTurn, " rad (its direction is ambiguous)"));
+  }
+  if (motion.from >= frame.stamp) {
+    return Invalid(absl::StrCat(field, ".from_stamp_ns"),
+                   absl::StrCat("is ", ToNanoseconds(motion.from),
+                                ", not before the frame's stamp ", ToNanoseconds(frame.stamp)));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status ValidatePose(const std::string& field, const Pose& pose, double max_coordinate_m) {
+  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) {
+    return Invalid(field, "is not finite");
+  }
+  const double norm = pose.rotation.norm();
+  if (std::abs(norm - 1.0) > kUnitTolerance) {
+    return Invalid(absl::StrCat(field, ".rotation"),
+                   absl::StrCat("has length ", norm, "; a unit quaternion is needed, to within ",
+                                kUnitTolerance));
+  }
+  const double largest_m = pose.translation.cwiseAbs().maxCoeff();
+  if (largest_m > max_coordinate_m) {
+    return Invalid(
+        absl::StrCat(field, ".translation"),
+        absl::StrCat("reaches ", largest_m, " m; the limit is ", max_coordinate_m, " m"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Validate(const Frame& frame, const FrameLimits& limits) {
+  if (auto status = ValidatePose("world_from_sensor", frame.T_W_S, limits.max_coordinate_m);
+      !status.ok()) {
+    return status;
+  }
+  if (auto status = CheckLengths(frame, limits); !status.ok()) return status;
+  if (auto status = CheckLabels(frame); !status.ok()) return status;
+  absl::flat_hash_set<ObjectId> seen;
+  for (std::size_t i = 0; i < frame.motions.size(); ++i) {
+    const std::string field = absl::StrCat("motions[", i, "]");
+    if (auto status = CheckId(absl::StrCat(field, ".object_id"), frame.motions[i].id, seen);
+        !status.ok()) {
+      return status;
+    }
+    if (auto status = CheckMotion(field, frame.motions[i], frame, limits); !status.ok()) {
+      return status;
+    }
+  }
+  for (std::size_t i = 0; i < frame.poses.size(); ++i) {
+    const std::string field = absl::StrCat("poses[", i, "]");
+    if (auto status = CheckId(absl::StrCat(field, ".object_id"), frame.poses[i].id, seen);
+        !status.ok()) {
+      return status;
+    }
+    if (auto status = ValidatePose(absl::StrCat(field, ".world_from_box"), frame.poses[i].T_W_B,
+                                   limits.max_coordinate_m);
+        !status.ok()) {
+      return status;
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace clearway

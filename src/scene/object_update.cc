@@ -1,0 +1,158 @@
+#include "scene/object_update.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+Twist VelocityBetween(const Pose& T_W_O1, Time t1, const Pose& T_W_O2, Time t2) {
+  return (1.0 / ToSeconds(t2 - t1)) * Log(Inverse(T_W_O1) * T_W_O2);
+}
+
+void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
+  if (object.t_k() == pose.stamp) {
+    object.history.back() = pose;
+  } else {
+    object.history.push_back(pose);
+  }
+  const auto keep =
+      std::find_if(object.history.begin(), object.history.end() - 1,
+                   [&](const StampedPose& p) { return p.stamp >= pose.stamp - history; });
+  object.history.erase(object.history.begin(), keep);
+}
+
+// The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
+// the pose of the first.
+const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
+  for (auto entry = object.history.rbegin(); entry != object.history.rend(); ++entry) {
+    if (entry->stamp < stamp) return &*entry;
+  }
+  return nullptr;
+}
+
+// The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
+// surroundings are cleared.
+struct ClippedRays {
+  std::vector<Eigen::Vector3f> ends_O, origins_O;
+  std::vector<RayEnd> kinds;
+};
+
+// The parameter interval of the segment a + s (b - a), 0 <= s <= 1, inside the box; empty if first
+// > second.
+std::pair<double, double> ClipSegment(const Aabb& box, const Eigen::Vector3d& a,
+                                      const Eigen::Vector3d& b) {
+  double begin = 0, end = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = b[axis] - a[axis];
+    if (d == 0) {
+      if (a[axis] < box.min[axis] || a[axis] > box.max[axis]) return {1, 0};
+      continue;
+    }
+    const double s = (box.min[axis] - a[axis]) / d, t = (box.max[axis] - a[axis]) / d;
+    begin = std::max(begin, std::min(s, t));
+    end = std::min(end, std::max(s, t));
+  }
+  return {begin, end};
+}
+
+ClippedRays RaysNear(const MovingObject& object, const LabelledCloud& cloud,
+                     std::span<const std::uint32_t> points, const SceneParams& params) {
+  const Pose T_O_W = Inverse(object.history.back().T_W_O);
+  Aabb box_O = object.observed_box_O;
+  for (std::uint32_t i : points) box_O.Extend(T_O_W * cloud.ends_W[i].cast<double>());
+  box_O = box_O.Padded(params.object_resolution_m);
+  const VoxelGrid grid(params.resolution_m);
+
+  ClippedRays rays;
+  for (std::size_t i = 0; i < cloud.ends_W.size(); ++i) {
+    const Eigen::Vector3f& origin_W =
+        cloud.origins_W.size() == 1 ? cloud.origins_W[0] : cloud.origins_W[i];
+    const LimitedRay limited = LimitRay(grid, params.rays, origin_W, cloud.ends_W[i]);
+    const Eigen::Vector3d origin_O = T_O_W * origin_W.cast<double>();
+    const Eigen::Vector3d end_O = T_O_W * limited.end.cast<double>();
+    const auto [begin, end] = ClipSegment(box_O, origin_O, end_O);
+    if (begin > end) continue;
+    const bool returned = end == 1 && limited.within_range && cloud.kinds[i] != RayEnd::kClear;
+    rays.origins_O.push_back((origin_O + begin * (end_O - origin_O)).cast<float>());
+    rays.ends_O.push_back((origin_O + end * (end_O - origin_O)).cast<float>());
+    // The object's own hits are added exactly, by the caller.
+    rays.kinds.push_back(returned ? RayEnd::kBlock : RayEnd::kClear);
+  }
+  return rays;
+}
+
+}  // namespace
+
+MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
+                        const SceneParams& params) {
+  Eigen::Vector3d centroid_W = Eigen::Vector3d::Zero();
+  for (std::uint32_t i : clue.points) centroid_W += cloud.ends_W[i].cast<double>();
+  centroid_W /= static_cast<double>(clue.points.size());
+
+  MovingObject object;
+  object.id = id;
+  object.map_O = VoxelMap(params.object_resolution_m, params.Model());
+  object.history = {{stamp, {Eigen::Quaterniond::Identity(), centroid_W}}};
+  object.first_seen = stamp;
+  const Pose& T_W_O = object.history.back().T_W_O;
+  if (clue.motion != nullptr) {
+    object.velocity_O =
+        VelocityBetween(Inverse(clue.motion->H_W) * T_W_O, clue.motion->from, T_W_O, stamp);
+  }
+  if (clue.pose != nullptr) object.T_B_O = Inverse(clue.pose->T_W_B) * T_W_O;
+  return object;
+}
+
+MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
+                   const SceneParams& params) {
+  if (clue.motion != nullptr) {
+    const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
+    const Pose T_W_O = clue.motion->H_W * T_W_from;  // eq. 2
+    object.velocity_O = VelocityBetween(T_W_from, clue.motion->from, T_W_O, stamp);
+    Remember(object, {stamp, T_W_O}, params.history);
+    object.bridged = false;
+  } else if (clue.pose != nullptr) {
+    if (!object.T_B_O) {
+      object.T_B_O = Inverse(clue.pose->T_W_B) * PredictPose(object, stamp, params.horizon).T_W_O;
+    }
+    const Pose T_W_O = clue.pose->T_W_B * *object.T_B_O;
+    if (const StampedPose* before = LastBefore(object, stamp)) {
+      object.velocity_O = VelocityBetween(before->T_W_O, before->stamp, T_W_O, stamp);
+    }
+    Remember(object, {stamp, T_W_O}, params.history);
+    object.bridged = false;
+  } else if (!clue.points.empty() && object.t_k() < stamp) {
+    Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
+    object.bridged = true;
+  }
+  return object;
+}
+
+bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
+                const SceneParams& params) {
+  const bool placed = clue.motion != nullptr || clue.pose != nullptr;
+  return !clue.points.empty() && !placed && !object.AtRest() &&
+         stamp - object.t_k() > params.horizon;
+}
+
+void AddPoints(MovingObject& object, const LabelledCloud& cloud,
+               std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
+               ThreadPool& pool) {
+  const Pose T_O_W = Inverse(object.history.back().T_W_O);
+  VoxelMap map_O = object.map_O;
+  ScanUpdate update;
+  if (params.clear_objects_by_rays) {
+    const ClippedRays rays = RaysNear(object, cloud, points, params);
+    update = CastRays(map_O.grid(), {rays.ends_O, rays.kinds, rays.origins_O}, RayOptions{}, pool);
+  }
+  for (std::uint32_t i : points) {
+    const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
+    if (map_O.grid().Addressable(p_O)) update.MarkHit(map_O.grid().KeyOf(p_O));
+  }
+  map_O.Update(update);
+  object = WithMap(std::move(object), std::move(map_O));
+  object.last_seen = stamp;
+  ++object.frames_seen;
+}
+
+}  // namespace clearway

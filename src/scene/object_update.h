@@ -1,0 +1,41 @@
+// What one frame does to one moving object (II-D).
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "clearway/scene/moving_object.h"
+#include "scene/labelled_cloud.h"
+
+namespace clearway {
+
+// What a frame says of one object; at most one of motion and pose is set.
+struct ObjectClue {
+  const ObjectMotion* motion = nullptr;
+  const ObjectPose* pose = nullptr;
+  std::span<const std::uint32_t> points;  // its hits, as indices into the cloud
+};
+
+// First sight: O at the centroid of the object's points (at least one), orientation identity. A
+// motion in the same frame gives the first velocity.
+MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
+                        const SceneParams& params);
+
+// The object with O carried to the frame's stamp: by the motion (eq. 2), by the source's pose, or,
+// if it was seen without either, by prediction, which is marked. Poses older than params.history
+// are forgotten.
+MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
+                   const SceneParams& params);
+
+// Whether the object was unseen for so long that neither a motion nor a prediction tells where O is
+// in this frame: its model has to be begun anew.
+bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
+                const SceneParams& params);
+
+// Adds the object's points to its own map, each voxel of O at most once; with
+// params.clear_objects_by_rays also the misses of every ray through it.
+void AddPoints(MovingObject& object, const LabelledCloud& cloud,
+               std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
+               ThreadPool& pool);
+
+}  // namespace clearway

@@ -1,0 +1,144 @@
+#include "clearway/scene/occupancy.h"
+
+#include <map>
+
+namespace clearway {
+namespace {
+
+Aabb PlacedBox(const MovingObject& object, const PredictedPose& predicted) {
+  if (predicted.beyond_horizon_radius_m) {
+    const Eigen::Vector3d& center = predicted.T_W_O.translation;
+    return Aabb{center, center}.Padded(*predicted.beyond_horizon_radius_m);
+  }
+  Aabb box_O = object.observed_box_O;
+  box_O.Extend(object.solid->box_O);
+  return Transformed(predicted.T_W_O, box_O);
+}
+
+bool InKeepOut(const SceneParams& params, const Eigen::Vector3d& p_W) {
+  for (const Aabb& box : params.keep_out_W) {
+    if (box.Contains(p_W)) return true;
+  }
+  return false;
+}
+
+// Adds what one placed object says of the point to the answer; returns the status it asks for.
+SpaceStatus ObjectSays(const SceneAtTime::Placed& placed, SolidMode mode,
+                       const Eigen::Vector3d& p_W, std::optional<double>& fused_log_odds) {
+  const MovingObject& object = *placed.object;
+  if (placed.beyond_horizon_radius_m) {
+    const double distance_m = (p_W - placed.T_W_O.translation).norm();
+    return distance_m <= *placed.beyond_horizon_radius_m ? SpaceStatus::kBeyondHorizon
+                                                         : SpaceStatus::kFree;
+  }
+  const Eigen::Vector3d p_O = placed.T_O_W * p_W;
+  if (const auto value = object.map_O.Find(object.map_O.grid().KeyOf(p_O))) {
+    fused_log_odds = fused_log_odds.value_or(0.0) + Dequantized(*value);
+    if (object.map_O.model().Occupied(*value)) return SpaceStatus::kOccupied;
+  }
+  if (mode == SolidMode::kConvexHull && object.solid->box_O.Contains(p_O) &&
+      Contains(ConvexPolytope{object.solid->hull}, p_O)) {
+    return SpaceStatus::kOccupied;
+  }
+  return SpaceStatus::kFree;
+}
+
+// The part of a ray inside a box, as an interval of distances; empty if begin > end.
+struct Interval {
+  double begin_m, end_m;
+};
+Interval Clip(const Aabb& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& unit,
+              Interval along) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (unit[axis] == 0) {
+      if (origin[axis] < box.min[axis] || origin[axis] > box.max[axis]) return {1, 0};
+      continue;
+    }
+    const double a = (box.min[axis] - origin[axis]) / unit[axis];
+    const double b = (box.max[axis] - origin[axis]) / unit[axis];
+    along = {std::max(along.begin_m, std::min(a, b)), std::min(along.end_m, std::max(a, b))};
+  }
+  return along;
+}
+
+}  // namespace
+
+SceneAtTime::SceneAtTime(const SceneSnapshot& scene, Time t) : scene_(&scene), time_(t) {
+  objects_.reserve(scene.objects.size());
+  for (const auto& object : scene.objects) {
+    const PredictedPose predicted = PredictPose(*object, t, scene.params.horizon);
+    objects_.push_back({object.get(), predicted.T_W_O, Inverse(predicted.T_W_O),
+                        predicted.beyond_horizon_radius_m, PlacedBox(*object, predicted)});
+  }
+}
+
+PointOccupancy SceneAtTime::At(const Eigen::Vector3d& p_W) const {
+  const VoxelMap& map = scene_->static_map_W;
+  if (!scene_->params.bounds_W.Contains(p_W) || !map.grid().Addressable(p_W)) {
+    return {SpaceStatus::kOutOfBounds, kStaticLabel, std::nullopt};
+  }
+  PointOccupancy answer;
+  const std::optional<LogOdds> value = map.Find(map.grid().KeyOf(p_W));
+  if (value) answer.fused_log_odds = Dequantized(*value);
+  answer.status = value ? SpaceStatus::kFree : SpaceStatus::kUnknownSpace;
+  if ((value && map.model().Occupied(*value)) || InKeepOut(scene_->params, p_W)) {
+    answer.status = SpaceStatus::kOccupied;
+  }
+  for (const Placed& placed : objects_) {
+    if (!placed.box_W.Contains(p_W)) continue;
+    const SpaceStatus status = ObjectSays(placed, scene_->params.solid, p_W, answer.fused_log_odds);
+    if (status == SpaceStatus::kFree || status <= answer.status) continue;
+    answer.status = status;
+    answer.object = placed.object->id;
+  }
+  return answer;
+}
+
+std::vector<PointOccupancy> OccupancyOf(const SceneSnapshot& scene,
+                                        std::span<const Eigen::Vector3d> points_W,
+                                        std::span<const Time> times) {
+  std::map<Time, SceneAtTime> placed;
+  std::vector<PointOccupancy> answers;
+  answers.reserve(points_W.size());
+  for (std::size_t i = 0; i < points_W.size(); ++i) {
+    const Time t = times.size() == 1 ? times[0] : times[i];
+    answers.push_back(placed.try_emplace(t, scene, t).first->second.At(points_W[i]));
+  }
+  return answers;
+}
+
+RayAnswer CastQueryRay(const SceneAtTime& scene, const Eigen::Vector3d& origin_W,
+                       const Eigen::Vector3d& direction_W, double max_range_m) {
+  RayAnswer answer;
+  const Eigen::Vector3d unit = direction_W.normalized();
+  const VoxelGrid& grid = scene.scene().static_map_W.grid();
+  Aabb space = scene.scene().params.bounds_W;
+  space.min = space.min.cwiseMax(-grid.limit_m());
+  space.max = space.max.cwiseMin(grid.limit_m());
+  if (!space.Contains(origin_W)) {
+    answer.first_unknown_m = 0;
+    return answer;
+  }
+  const Interval inside = Clip(space, origin_W, unit, {0, max_range_m});
+  const Eigen::Vector3d end_W = origin_W + inside.end_m * unit;
+
+  const auto look_at = [&](VoxelKey key) {
+    if (answer.first_hit_m) return;
+    const Interval in_voxel = Clip(grid.BoxOf(key), origin_W, unit, inside);
+    if (in_voxel.begin_m > in_voxel.end_m)
+      return;  // the walk's float end strays from the exact ray
+    const double middle_m = 0.5 * (in_voxel.begin_m + in_voxel.end_m);
+    const PointOccupancy found = scene.At(origin_W + middle_m * unit);
+    if (found.status == SpaceStatus::kOccupied) {
+      answer.first_hit_m = in_voxel.begin_m;
+      answer.object = found.object;
+    } else if (found.status != SpaceStatus::kFree && !answer.first_unknown_m) {
+      answer.first_unknown_m = in_voxel.begin_m;
+    }
+  };
+  WalkRay(grid, origin_W.cast<float>(), end_W.cast<float>(), look_at);
+  look_at(grid.KeyOf(end_W));
+  return answer;
+}
+
+}  // namespace clearway

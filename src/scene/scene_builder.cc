@@ -1,0 +1,158 @@
+#include "clearway/scene/scene_builder.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "scene/dropped_object.h"
+#include "scene/labelled_cloud.h"
+#include "scene/object_update.h"
+
+namespace clearway {
+namespace {
+
+using Objects = std::vector<std::shared_ptr<const MovingObject>>;
+
+// By id, so that objects are visited in one order.
+std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& cloud) {
+  std::map<ObjectId, ObjectClue> clues;
+  for (const ObjectMotion& motion : frame.motions) clues[motion.id].motion = &motion;
+  for (const ObjectPose& pose : frame.poses) clues[pose.id].pose = &pose;
+  for (const auto& [id, points] : cloud.object_hits) clues[id].points = points;
+  return clues;
+}
+
+// The object after the frame; none for a clue without points to an object that is not known.
+std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, const ObjectClue& clue,
+                                    const LabelledCloud& cloud, Time stamp,
+                                    const SceneParams& params, ThreadPool& pool) {
+  const bool seen = !clue.points.empty();
+  if (known == nullptr && !seen) return std::nullopt;
+  MovingObject object = known == nullptr || OutOfReach(*known, clue, stamp, params)
+                            ? FirstSight(id, cloud, clue, stamp, params)
+                            : Moved(*known, clue, stamp, params);
+  if (seen) AddPoints(object, cloud, clue.points, stamp, params, pool);
+  return object;
+}
+
+absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
+                          const FrameLimits& limits) {
+  if (objects.size() > limits.max_objects) {
+    return absl::ResourceExhaustedError(absl::StrCat("labels: the scene would hold ",
+                                                     objects.size(), " objects; the limit is ",
+                                                     limits.max_objects));
+  }
+  for (const auto& [id, object] : objects) {
+    const double reach_m = object->history.back().T_W_O.translation.cwiseAbs().maxCoeff();
+    if (reach_m <= limits.max_coordinate_m) continue;
+    return absl::InvalidArgumentError(absl::StrCat("motions: object ", id, " would be at ", reach_m,
+                                                   " m; the limit is ", limits.max_coordinate_m,
+                                                   " m"));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
+    : scene_(SceneSnapshot::Empty(params)), limits_(limits), pool_(&pool) {}
+
+absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
+  if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
+  if (absl::Status status = CheckFits(frame); !status.ok()) return status;
+
+  FrameReport report;
+  const LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  VoxelMap static_map_W = scene_.static_map_W;
+  std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
+  for (const auto& object : scene_.objects) {
+    if (frame.stamp - object->last_seen <= scene_.params.object_lifetime) {
+      objects[object->id] = object;
+    } else {
+      ForgetFreeSpaceOf(*object, static_map_W);
+      ++report.objects_dropped;
+    }
+  }
+  static_map_W.Update(
+      CastRays(static_map_W.grid(), cloud.Rays(), scene_.params.rays, *pool_));  // II-B, II-C
+  for (const auto& [id, clue] : CluesOf(frame, cloud)) {                         // II-D
+    const auto known = objects.find(id);
+    std::optional<MovingObject> object =
+        Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,
+                frame.stamp, scene_.params, *pool_);
+    report.motions_ignored += !object.has_value();
+    report.objects_created += object.has_value() && known == objects.end();
+    if (object) objects[id] = std::make_shared<const MovingObject>(std::move(*object));
+  }
+  if (absl::Status status = CheckObjects(objects, limits_); !status.ok()) return status;
+
+  scene_.static_map_W = std::move(static_map_W);
+  scene_.objects.clear();
+  for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
+  scene_.stamp = frame.stamp;
+  has_frames_ = changed_ = true;
+  return report;
+}
+
+absl::Status SceneBuilder::CheckFits(const Frame& frame) const {
+  if (has_frames_ && frame.stamp < scene_.stamp) {
+    return absl::FailedPreconditionError(absl::StrCat("stamp_ns: ", ToNanoseconds(frame.stamp),
+                                                      " lies before the scene's newest frame, ",
+                                                      ToNanoseconds(scene_.stamp)));
+  }
+  const VoxelGrid& grid = scene_.static_map_W.grid();
+  if (!grid.Addressable(frame.T_W_S.translation)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("world_from_sensor.translation: outside the addressable space of ",
+                     grid.limit_m(), " m about the origin"));
+  }
+  return absl::OkStatus();
+}
+
+ScenePtr SceneBuilder::Publish() {
+  if (changed_) {
+    ++scene_.version;
+    published_ = std::make_shared<const SceneSnapshot>(scene_);
+    changed_ = false;
+  }
+  return published_;
+}
+
+absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
+  const double resolution_m = scene_.static_map_W.grid().resolution_m();
+  if (std::abs(prior_W.grid().resolution_m() - resolution_m) > 1e-9) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("map: has voxels of ", prior_W.grid().resolution_m(),
+                     " m; the scene has voxels of ", resolution_m, " m"));
+  }
+  const OccupancyModel& model = scene_.static_map_W.model();
+  prior_W.blocks().ForEach([&](BlockKey key, const VoxelBlock& prior) {
+    const VoxelBlock* before = scene_.static_map_W.blocks().Find(key);
+    VoxelBlock block = before == nullptr ? VoxelBlock{} : *before;
+    prior.observed.ForEach([&](int index) {
+      block.Set(index, std::clamp(prior.log_odds[index], model.clamp_min, model.clamp_max), model);
+    });
+    scene_.static_map_W.PutBlock(key, block);
+  });
+  changed_ = true;
+  return absl::OkStatus();
+}
+
+void SceneBuilder::ClearRegion(const Aabb& box_W) {
+  scene_.static_map_W.Forget(box_W);
+  changed_ = true;
+}
+
+void SceneBuilder::SetKeepOut(std::vector<Aabb> boxes_W) {
+  scene_.params.keep_out_W = std::move(boxes_W);
+  changed_ = true;
+}
+
+void SceneBuilder::Reset() {
+  const std::uint64_t version = scene_.version;
+  scene_ = SceneSnapshot::Empty(scene_.params);
+  scene_.version = version;
+  has_frames_ = false;
+  changed_ = true;
+}
+
+}  // namespace clearway

@@ -1,0 +1,56 @@
+#include "clearway/scene/scene_params.h"
+
+#include <string>
+
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+absl::Status CheckResolution(const char* field, double value_m) {
+  if (value_m >= 0.001 && value_m <= 100.0) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " is ", value_m, "; it must lie between 0.001 and 100 m"));
+}
+
+absl::Status CheckDuration(const char* field, Duration value) {
+  if (value >= Duration::zero() && value <= std::chrono::hours(24)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " is ", ToSeconds(value), " s; it must lie between 0 and 86400 s"));
+}
+
+absl::Status CheckBox(const std::string& field, const Aabb& box) {
+  if (box.min.allFinite() && box.max.allFinite() && !box.Empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " must be finite with min at most max on each axis"));
+}
+
+absl::Status CheckBoxes(const char* field, const std::vector<Aabb>& boxes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (auto s = CheckBox(absl::StrCat(field, "[", i, "]"), boxes[i]); !s.ok()) return s;
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status Validate(const SceneParams& params) {
+  if (params.rays.max_range_m == 0 || !std::isfinite(params.rays.max_range_m)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("max_range_m is ", params.rays.max_range_m,
+                     "; it must be finite and positive, or negative for no limit"));
+  }
+  for (const absl::Status& status :
+       {CheckResolution("resolution_m", params.resolution_m),
+        CheckResolution("object_resolution_m", params.object_resolution_m),
+        Validate(params.occupancy), CheckDuration("horizon_s", params.horizon),
+        CheckDuration("object_lifetime_s", params.object_lifetime),
+        CheckDuration("history_s", params.history), CheckBox("bounds", params.bounds_W),
+        CheckBoxes("keep_out", params.keep_out_W),
+        CheckBoxes("self_filter", params.self_filter_S)}) {
+    if (!status.ok()) return status;
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace clearway

@@ -1,0 +1,159 @@
+#include "clearway/scene/scene_snapshot.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+
+#include "absl/strings/str_format.h"
+
+namespace clearway {
+namespace {
+
+// Feeds a scene's content to XXH3 in one canonical order.
+class ContentHasher {
+ public:
+  ContentHasher() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
+  ~ContentHasher() { XXH3_freeState(state_); }
+  ContentHasher(const ContentHasher&) = delete;
+  ContentHasher& operator=(const ContentHasher&) = delete;
+
+  void Add(std::int64_t value) { XXH3_128bits_update(state_, &value, sizeof value); }
+  void Add(double value) { XXH3_128bits_update(state_, &value, sizeof value); }
+  void Add(Time time) { Add(ToNanoseconds(time)); }
+  void Add(const Eigen::Vector3d& v) { XXH3_128bits_update(state_, v.data(), 3 * sizeof(double)); }
+  void Add(const Aabb& box) {
+    Add(box.min);
+    Add(box.max);
+  }
+  void Add(const Pose& pose) {
+    XXH3_128bits_update(state_, pose.rotation.coeffs().data(), 4 * sizeof(double));
+    Add(pose.translation);
+  }
+  void Add(const Twist& twist) {
+    Add(twist.angular);
+    Add(twist.linear);
+  }
+  template <class T>
+  void Add(const std::optional<T>& value) {
+    Add(std::int64_t{value.has_value()});
+    if (value) Add(*value);
+  }
+  void Add(const std::vector<Aabb>& boxes) {
+    Add(static_cast<std::int64_t>(boxes.size()));
+    for (const Aabb& box : boxes) Add(box);
+  }
+  void Add(const VoxelMap& map) {
+    Add(map.grid().resolution_m());
+    Add(static_cast<std::int64_t>(map.blocks().size()));
+    map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+      const std::int32_t address[3] = {key.x, key.y, key.z};
+      XXH3_128bits_update(state_, address, sizeof address);
+      XXH3_128bits_update(state_, block.observed.words.data(), sizeof block.observed.words);
+      XXH3_128bits_update(state_, block.log_odds.data(), sizeof block.log_odds);
+    });
+  }
+  void Add(const SceneParams& params);
+  void Add(const MovingObject& object);
+
+  std::string HexDigest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_);
+    return absl::StrFormat("%016x%016x", hash.high64, hash.low64);
+  }
+
+ private:
+  XXH3_state_t* state_;
+};
+
+void ContentHasher::Add(const SceneParams& params) {
+  Add(params.resolution_m);
+  Add(params.object_resolution_m);
+  for (double probability :
+       {params.occupancy.hit, params.occupancy.miss, params.occupancy.clamp_min,
+        params.occupancy.clamp_max, params.occupancy.occupied}) {
+    Add(probability);
+  }
+  Add(params.rays.max_range_m);
+  Add(std::int64_t{params.rays.discretize});
+  Add(static_cast<std::int64_t>(params.solid));
+  Add(std::int64_t{params.clear_objects_by_rays});
+  for (Duration duration : {params.horizon, params.object_lifetime, params.history}) {
+    Add(std::int64_t{duration.count()});
+  }
+  Add(params.bounds_W);
+  Add(params.keep_out_W);
+  Add(params.self_filter_S);
+}
+
+void ContentHasher::Add(const MovingObject& object) {
+  Add(std::int64_t{object.id});
+  Add(object.map_O);
+  Add(static_cast<std::int64_t>(object.history.size()));
+  for (const StampedPose& entry : object.history) {
+    Add(entry.stamp);
+    Add(entry.T_W_O);
+  }
+  Add(object.velocity_O);
+  Add(object.T_B_O);
+  Add(object.first_seen);
+  Add(object.last_seen);
+  Add(std::int64_t{object.frames_seen});
+  Add(std::int64_t{object.bridged});
+}
+
+bool SameObject(const MovingObject& a, const MovingObject& b) {
+  return a.id == b.id && a.map_O == b.map_O && a.history == b.history &&
+         a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
+         a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged;
+}
+
+}  // namespace
+
+const char* ToString(SpaceStatus status) {
+  switch (status) {
+    case SpaceStatus::kFree:
+      return "free";
+    case SpaceStatus::kUnknownSpace:
+      return "unknown";
+    case SpaceStatus::kBeyondHorizon:
+      return "beyond horizon";
+    case SpaceStatus::kOccupied:
+      return "occupied";
+    case SpaceStatus::kOutOfBounds:
+      return "out of bounds";
+    case SpaceStatus::kUnresolved:
+      return "unresolved";
+  }
+  return "invalid";
+}
+
+SceneSnapshot SceneSnapshot::Empty(const SceneParams& params) {
+  SceneSnapshot scene;
+  scene.params = params;
+  scene.static_map_W = VoxelMap(params.resolution_m, params.Model());
+  return scene;
+}
+
+const MovingObject* SceneSnapshot::FindObject(ObjectId id) const {
+  const auto found = std::lower_bound(
+      objects.begin(), objects.end(), id,
+      [](const std::shared_ptr<const MovingObject>& object, ObjectId i) { return object->id < i; });
+  return found != objects.end() && (*found)->id == id ? found->get() : nullptr;
+}
+
+std::string SceneSnapshot::Hash() const {
+  ContentHasher hasher;
+  hasher.Add(stamp);
+  hasher.Add(params);
+  hasher.Add(static_map_W);
+  hasher.Add(static_cast<std::int64_t>(objects.size()));
+  for (const auto& object : objects) hasher.Add(*object);
+  return hasher.HexDigest();
+}
+
+bool SameContent(const SceneSnapshot& a, const SceneSnapshot& b) {
+  return a.stamp == b.stamp && a.params == b.params && a.static_map_W == b.static_map_W &&
+         std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
+                    [](const auto& x, const auto& y) { return SameObject(*x, *y); });
+}
+
+}  // namespace clearway
