@@ -1,0 +1,40 @@
+#include "clearway/map/scan_update.h"
+
+#include <gtest/gtest.h>
+
+namespace clearway {
+namespace {
+
+TEST(ScanUpdate, Empty) {
+  const ScanUpdate dut;
+  EXPECT_TRUE(dut.Empty());
+  EXPECT_EQ(dut.Find({0, 0, 0}), nullptr);
+  EXPECT_TRUE(dut.SortedKeys().empty());
+}
+
+TEST(ScanUpdate, MarksInTheRightBlock) {
+  ScanUpdate dut;
+  dut.MarkFree({-1, 0, 0});
+  dut.MarkHit({8, 0, 0});
+  dut.MarkEnd({9, 0, 0});
+  EXPECT_EQ(dut.SortedKeys(), (std::vector<BlockKey>{{-1, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(dut.Find({-1, 0, 0})->free.Test(7));
+  EXPECT_EQ(dut.Find({-1, 0, 0})->free.Count(), 1);
+  EXPECT_EQ(dut.Find({1, 0, 0})->hit.Count(), 1);
+  EXPECT_EQ(dut.Find({1, 0, 0})->end.Count(), 2);
+}
+
+TEST(ScanUpdate, MergeIsTheUnion) {
+  ScanUpdate dut, other;
+  dut.MarkFree({0, 0, 0});
+  other.MarkFree({0, 0, 0});
+  other.MarkHit({1, 0, 0});
+  other.MarkFree({64, 0, 0});
+  dut.Merge(other);
+  EXPECT_EQ(dut.SortedKeys().size(), 2u);
+  EXPECT_EQ(dut.Find({0, 0, 0})->free.Count(), 1);
+  EXPECT_EQ(dut.Find({0, 0, 0})->hit.Count(), 1);
+}
+
+}  // namespace
+}  // namespace clearway
