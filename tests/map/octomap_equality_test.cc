@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, OctomapEqualityTest,
                          testing::Values(Case{0.1, -1, false, 1}, Case{0.1, -1, true, 1},
                                          Case{0.1, 4.0, false, 2}, Case{0.1, 4.0, true, 2},
                                          Case{0.23, -1, false, 3}, Case{0.05, 5.0, true, 1}),
-                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+                         [](const auto& mode) { return "Case" + std::to_string(mode.index); });
 
 TEST(OctomapEquality, EmptyMapsAreEqual) {
   octomap::OcTree oracle(0.1);

@@ -1,0 +1,176 @@
+// Where an object's frame goes, and what its map gathers (II-D).
+#include <gtest/gtest.h>
+
+#include "clearway/scene/scene_builder.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::AddPoint;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+using testing_support::Random;
+
+class ObjectMotionTest : public testing::Test {
+ protected:
+  SceneBuilder Builder(const SceneParams& params = {}) { return SceneBuilder(params, {}, pool_); }
+  const MovingObject& ObjectAfter(SceneBuilder& dut, const Frame& frame, ObjectId id = 5) {
+    EXPECT_TRUE(dut.Apply(frame).ok());
+    scene_ = dut.Publish();
+    const MovingObject* object = scene_->FindObject(id);
+    EXPECT_NE(object, nullptr);
+    return *object;
+  }
+  ThreadPool pool_{1};
+  ScenePtr scene_;
+};
+
+Frame Seen(double seconds, const Pose& T_W_B, ObjectId id = 5) {
+  Frame frame = FrameAt(seconds);
+  AddObject(frame, id, T_W_B, BoxSurface({1, 0.6, 0.4}, 0.05));
+  return frame;
+}
+
+TEST_F(ObjectMotionTest, FirstSightIsTheCentroidWithoutTurn) {
+  SceneBuilder dut = Builder();
+  const MovingObject& object = ObjectAfter(dut, Seen(1, Pose::Translation(4, 1, 0)));
+  EXPECT_LT((object.history.back().T_W_O.translation - Eigen::Vector3d(4, 1, 0)).norm(), 1e-5);
+  EXPECT_EQ(object.history.back().T_W_O.rotation.w(), 1);
+  EXPECT_TRUE(object.AtRest());
+  EXPECT_EQ(object.frames_seen, 1);
+}
+
+TEST_F(ObjectMotionTest, FollowsWorldMotions) {
+  SceneBuilder dut = Builder();
+  Random random(1);
+  Pose T_W_B = Pose::Translation(4, 1, 0);
+  Pose T_W_O = ObjectAfter(dut, Seen(0, T_W_B)).history.back().T_W_O;
+  for (int k = 1; k <= 20; ++k) {
+    const Pose next = T_W_B * Exp({0.05 * random.UnitVector(), random.Vector(0.2)});
+    const Pose H_W = next * Inverse(T_W_B);
+    Frame frame = Seen(0.1 * k, next);
+    frame.motions.push_back({5, H_W, At(0.1 * (k - 1))});
+    T_W_O = H_W * T_W_O;
+    const MovingObject& object = ObjectAfter(dut, frame);
+    EXPECT_LT((object.history.back().T_W_O.translation - T_W_O.translation).norm(), 1e-9);
+    EXPECT_FALSE(object.bridged);
+    T_W_B = next;
+  }
+}
+
+TEST_F(ObjectMotionTest, PosesCarryTheFrameOverGaps) {
+  SceneBuilder dut = Builder();
+  Random random(2);
+  const Pose T_W_B0 = random.AnyPose(3), T_W_B1 = random.AnyPose(3);
+  Frame first = Seen(0, T_W_B0), second = Seen(4, T_W_B1);
+  first.poses.push_back({5, T_W_B0});
+  second.poses.push_back({5, T_W_B1});
+  const Pose T_W_O0 = ObjectAfter(dut, first).history.back().T_W_O;
+  const Pose T_W_O1 = ObjectAfter(dut, second).history.back().T_W_O;
+  const Pose T_B_O0 = Inverse(T_W_B0) * T_W_O0, T_B_O1 = Inverse(T_W_B1) * T_W_O1;
+  EXPECT_LT((T_B_O0.translation - T_B_O1.translation).norm(), 1e-9);
+  EXPECT_GT(std::abs(T_B_O0.rotation.dot(T_B_O1.rotation)), 1 - 1e-12);
+}
+
+TEST_F(ObjectMotionTest, ALabelWithoutAMotionIsBridgedByPrediction) {
+  SceneBuilder dut = Builder();
+  ObjectAfter(dut, Seen(0, Pose::Translation(4, 0, 0)));
+  Frame moved = Seen(0.1, Pose::Translation(4.2, 0, 0));
+  moved.motions.push_back({5, Pose::Translation(0.2, 0, 0), At(0)});
+  ObjectAfter(dut, moved);
+  const MovingObject& object = ObjectAfter(dut, Seen(0.3, Pose::Translation(4.6, 0, 0)));
+  EXPECT_TRUE(object.bridged);
+  EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 4.6, 1e-5);
+  EXPECT_NEAR(object.SpeedMps(), 2.0, 1e-9);
+}
+
+TEST_F(ObjectMotionTest, AMotionWithoutPointsMovesTheObject) {
+  SceneBuilder dut = Builder();
+  ObjectAfter(dut, Seen(0, Pose::Translation(4, 0, 0)));
+  Frame unseen = FrameAt(0.1);
+  unseen.motions.push_back({5, Pose::Translation(0.3, 0, 0), At(0)});
+  const MovingObject& object = ObjectAfter(dut, unseen);
+  EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 4.3, 1e-5);
+  EXPECT_EQ(object.last_seen, At(0));
+  EXPECT_EQ(object.frames_seen, 1);
+}
+
+TEST_F(ObjectMotionTest, AMotionOfAnUnknownObjectIsIgnoredAndCounted) {
+  SceneBuilder dut = Builder();
+  Frame frame = FrameAt(0.1);
+  frame.motions.push_back({5, Pose::Translation(0.3, 0, 0), At(0)});
+  frame.poses.push_back({6, Pose()});
+  const auto report = dut.Apply(frame);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->motions_ignored, 2u);
+  EXPECT_TRUE(dut.Publish()->objects.empty());
+}
+
+TEST_F(ObjectMotionTest, AMotionAtFirstSightGivesTheVelocity) {
+  SceneBuilder dut = Builder();
+  Frame frame = Seen(0.1, Pose::Translation(4, 0, 0));
+  frame.motions.push_back({5, Pose::Translation(0.3, 0, 0), At(0)});
+  EXPECT_NEAR(ObjectAfter(dut, frame).SpeedMps(), 3.0, 1e-9);
+}
+
+TEST_F(ObjectMotionTest, AMotionMayStartBeforeTheLastPose) {
+  SceneBuilder dut = Builder();
+  ObjectAfter(dut, Seen(0, Pose::Translation(4, 0, 0)));
+  Frame second = Seen(0.1, Pose::Translation(4.1, 0, 0));
+  second.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(0)});
+  ObjectAfter(dut, second);
+  Frame third = Seen(0.2, Pose::Translation(4.5, 0, 0));
+  third.motions.push_back({5, Pose::Translation(0.5, 0, 0), At(0)});
+  EXPECT_NEAR(ObjectAfter(dut, third).history.back().T_W_O.translation.x(), 4.5, 1e-5);
+}
+
+TEST_F(ObjectMotionTest, OutOfReachOfPredictionTheModelBeginsAnew) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(1);
+  SceneBuilder dut = Builder(params);
+  ObjectAfter(dut, Seen(0, Pose::Translation(4, 0, 0)));
+  Frame moved = Seen(0.1, Pose::Translation(4.2, 0, 0));
+  moved.motions.push_back({5, Pose::Translation(0.2, 0, 0), At(0)});
+  ObjectAfter(dut, moved);
+  const MovingObject& object = ObjectAfter(dut, Seen(3, Pose::Translation(9, 0, 0)));
+  EXPECT_EQ(object.first_seen, At(3));
+  EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 9, 1e-5);
+}
+
+TEST_F(ObjectMotionTest, HistoryIsBounded) {
+  SceneParams params;
+  params.history = std::chrono::seconds(1);
+  SceneBuilder dut = Builder(params);
+  for (int k = 0; k < 50; ++k) {
+    Frame frame = Seen(0.1 * k, Pose());
+    frame.poses.push_back({5, Pose::Translation(0.1 * k, 0, 0)});
+    EXPECT_LE(ObjectAfter(dut, frame).history.size(), 11u);
+  }
+}
+
+// The model does not depend on whether the object or the sensor moves.
+TEST_F(ObjectMotionTest, TheMapIsTheSameWhetherObjectOrSensorMoves) {
+  const auto surface = BoxSurface({1, 0.6, 0.4}, 0.03);
+  SceneBuilder moving_object = Builder(), moving_sensor = Builder();
+  for (int k = 0; k < 10; ++k) {
+    const Pose T_W_B = Pose::Translation(4 + 0.1 * k, 0, 0);
+    Frame a = FrameAt(0.1 * k), b = FrameAt(0.1 * k);
+    b.T_W_S = Pose::Translation(-0.1 * k, 0, 0);
+    AddObject(a, 5, T_W_B, surface);
+    AddObject(b, 5, Pose::Translation(4, 0, 0), surface);
+    if (k > 0) a.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(0.1 * (k - 1))});
+    ObjectAfter(moving_object, a);
+    ObjectAfter(moving_sensor, b);
+  }
+  const VoxelMap map_a = moving_object.Publish()->FindObject(5)->map_O;
+  const VoxelMap map_b = moving_sensor.Publish()->FindObject(5)->map_O;
+  const Aabb box_a = map_a.OccupiedBox(), box_b = map_b.OccupiedBox();
+  EXPECT_LE((box_a.min - box_b.min).cwiseAbs().maxCoeff(), 0.1 + 1e-9);
+  EXPECT_LE((box_a.max - box_b.max).cwiseAbs().maxCoeff(), 0.1 + 1e-9);
+}
+
+}  // namespace
+}  // namespace clearway

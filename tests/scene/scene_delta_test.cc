@@ -1,0 +1,145 @@
+#include "clearway/scene/scene_delta.h"
+
+#include <gtest/gtest.h>
+
+#include "clearway/scene/scene_builder.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddPoint;
+using testing_support::FrameAt;
+using testing_support::RandomFrames;
+
+// Versions of one scene after each of a number of random frames.
+std::vector<ScenePtr> RandomVersions(unsigned seed, int count) {
+  ThreadPool pool(1);
+  SceneParams params;
+  params.clear_objects_by_rays = seed % 2 == 0;
+  SceneBuilder builder(params, {}, pool);
+  RandomFrames frames(seed);
+  std::vector<ScenePtr> versions{builder.Publish()};
+  for (int k = 0; k < count; ++k) {
+    EXPECT_TRUE(builder.Apply(frames.Next()).ok());
+    if (k == count / 2) builder.ClearRegion({{-2, -2, -2}, {2, 2, 2}});
+    if (k == count / 3) builder.SetKeepOut({{{0, 0, 0}, {1, 1, 1}}});
+    if (k == 2 * count / 3 && seed == 5) builder.Reset();
+    versions.push_back(builder.Publish());
+  }
+  return versions;
+}
+
+void ExpectEqual(const SceneSnapshot& a, const SceneSnapshot& b) {
+  EXPECT_TRUE(SameContent(a, b));
+  EXPECT_EQ(a.Hash(), b.Hash());
+  EXPECT_EQ(a.version, b.version);
+  for (const auto& object : b.objects) {
+    const MovingObject* twin = a.FindObject(object->id);
+    ASSERT_NE(twin, nullptr);
+    EXPECT_EQ(twin->solid->hull->vertices, object->solid->hull->vertices);
+    EXPECT_EQ(twin->solid->hull->triangles, object->solid->hull->triangles);
+    EXPECT_EQ(twin->observed_box_O, object->observed_box_O);
+  }
+}
+
+TEST(SceneDelta, EmptyBetweenAVersionAndItself) {
+  const auto versions = RandomVersions(1, 3);
+  const SceneDelta dut = Diff(versions[3].get(), *versions[3]);
+  EXPECT_TRUE(dut.static_map_W.empty());
+  EXPECT_TRUE(dut.objects.empty());
+  EXPECT_TRUE(dut.removed.empty());
+  EXPECT_FALSE(dut.params);
+}
+
+// The law: Apply(a, Diff(a, b)) == b, for any skip and also backwards.
+TEST(SceneDelta, ApplyUndoesDiffBetweenAnyTwoVersions) {
+  for (unsigned seed : {2u, 3u, 5u}) {
+    const auto versions = RandomVersions(seed, 24);
+    testing_support::Random random(seed);
+    for (int i = 0; i < 60; ++i) {
+      const auto& a = versions[random.Integer(0, 24)];
+      const auto& b = versions[random.Integer(0, 24)];
+      const auto applied = Apply(a.get(), Diff(a.get(), *b));
+      ASSERT_TRUE(applied.ok()) << applied.status();
+      ExpectEqual(*applied, *b);
+    }
+  }
+}
+
+TEST(SceneDelta, FromNothingItIsTheWholeScene) {
+  for (const ScenePtr& version : RandomVersions(4, 12)) {
+    const auto applied = Apply(nullptr, Diff(nullptr, *version));
+    ASSERT_TRUE(applied.ok());
+    ExpectEqual(*applied, *version);
+  }
+}
+
+TEST(SceneDelta, HoldsChangedVoxelsAlone) {
+  ThreadPool pool(1);
+  SceneBuilder builder({}, {}, pool);
+  Frame frame = FrameAt(0);
+  AddPoint(frame, kStaticLabel, {2.05, 0.05, 0.05});
+  ASSERT_TRUE(builder.Apply(frame).ok());
+  const ScenePtr before = builder.Publish();
+  VoxelMap prior(0.1);
+  prior.Set({1, 1, 1}, 77);
+  ASSERT_TRUE(builder.LoadPrior(prior).ok());
+  const SceneDelta dut = Diff(before.get(), *builder.Publish());
+  ASSERT_EQ(dut.static_map_W.size(), 1u);
+  EXPECT_EQ(dut.static_map_W[0].changed.Count(), 1);
+  EXPECT_EQ(dut.static_map_W[0].log_odds, (std::vector<LogOdds>{77}));
+}
+
+class SceneDeltaRefusalTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    versions_ = RandomVersions(3, 6);
+    delta_ = Diff(nullptr, *versions_.back());
+    ASSERT_FALSE(delta_.objects.empty());
+    ASSERT_FALSE(delta_.static_map_W.empty());
+  }
+  absl::StatusCode Code() { return Apply(nullptr, delta_).status().code(); }
+  std::vector<ScenePtr> versions_;
+  SceneDelta delta_;
+};
+
+TEST_F(SceneDeltaRefusalTest, AnotherBaseVersion) {
+  EXPECT_EQ(Apply(versions_[1].get(), delta_).status().code(),
+            absl::StatusCode::kFailedPrecondition);
+}
+
+TEST_F(SceneDeltaRefusalTest, MissingParams) {
+  delta_.params.reset();
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, MasksAndValuesDisagree) {
+  delta_.static_map_W[0].log_odds.push_back(1);
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, AddressOutOfRange) {
+  delta_.static_map_W[0].key.x = kMaxVoxelIndex;
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, EmptyHistory) {
+  delta_.objects[0].history.clear();
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, HistoryThatDoesNotAscend) {
+  delta_.objects[0].history.push_back(delta_.objects[0].history.front());
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, ResolutionCannotChange) {
+  delta_ = Diff(versions_[1].get(), *versions_[2]);
+  delta_.params = SceneParams{};
+  delta_.params->resolution_m = 0.2;
+  EXPECT_EQ(Apply(versions_[1].get(), delta_).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace clearway

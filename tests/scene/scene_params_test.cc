@@ -1,0 +1,35 @@
+#include "clearway/scene/scene_params.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clearway {
+namespace {
+
+template <class Change>
+void ExpectRefused(Change change, const char* field) {
+  SceneParams params;
+  change(params);
+  const absl::Status status = Validate(params);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(status.message()), testing::HasSubstr(field));
+}
+
+TEST(SceneParams, DefaultsAreValid) { EXPECT_TRUE(Validate(SceneParams{}).ok()); }
+
+TEST(SceneParams, RefusesEachFieldByName) {
+  ExpectRefused([](auto& p) { p.resolution_m = 0; }, "resolution_m");
+  ExpectRefused([](auto& p) { p.object_resolution_m = NAN; }, "object_resolution_m");
+  ExpectRefused([](auto& p) { p.occupancy.hit = 2; }, "occupancy.hit");
+  ExpectRefused([](auto& p) { p.rays.max_range_m = 0; }, "max_range_m");
+  ExpectRefused([](auto& p) { p.rays.max_range_m = INFINITY; }, "max_range_m");
+  ExpectRefused([](auto& p) { p.horizon = std::chrono::seconds(-1); }, "horizon_s");
+  ExpectRefused([](auto& p) { p.object_lifetime = std::chrono::hours(25); }, "object_lifetime_s");
+  ExpectRefused([](auto& p) { p.bounds_W = Aabb{}; }, "bounds");
+  ExpectRefused([](auto& p) { p.keep_out_W = {Aabb{{0, 0, 0}, {-1, 0, 0}}}; }, "keep_out[0]");
+}
+
+}  // namespace
+}  // namespace clearway
