@@ -5,10 +5,13 @@ function(clearway_layer name)
   add_library(clearway_${name} STATIC ${ARG_SOURCES})
   add_library(clearway::${name} ALIAS clearway_${name})
   set_target_properties(clearway_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(clearway_${name} PUBLIC cxx_std_20)
   target_include_directories(clearway_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(clearway_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} clearway_warnings)
+  target_link_libraries(clearway_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
+    $<BUILD_INTERFACE:clearway_warnings>)
+  install(TARGETS clearway_${name} EXPORT clearwayTargets)
 endfunction()
 
 # clearway_test(<name> SOURCES ... LIBRARIES ...): a GoogleTest program, each of its tests known to ctest.
