@@ -29,7 +29,8 @@ struct ScenarioOptions {
 // crossing: a road with traffic seen by a LiDAR at the roadside, 8 s at 10 Hz; a delivery robot has
 //   to cross (tasks[0]). 0.1 m voxels.
 // street: a drive of 480 m past 14 moving objects with a LiDAR on the roof, 10 Hz. 0.1 m voxels.
-// lab: a room with swinging and turning boxes before a depth camera, 15 Hz. 0.05 m voxels.
+// lab: a room with swinging and turning boxes before a depth camera, 8 s at 15 Hz. 0.05 m voxels.
+// small: a box, a cylinder and a wedge before a wall, seen by a small LiDAR: quick, for tests.
 std::vector<std::string> ScenarioNames();
 
 // NOT_FOUND for an unknown name, listing the known ones; INVALID_ARGUMENT naming the option.

@@ -30,11 +30,12 @@ struct Body {
 
   static Body Single(ObjectId id, std::string name, Shape shape, Trajectory trajectory);
 
-  // The smallest box in B around all parts: an object's true dimensions.
+  // The box in B around all parts: an object's true dimensions.
   Aabb BoxB() const;
 };
 
-// Bodies with their trajectories, at every time. A value; any thread may read it.
+// Bodies with their trajectories: where everything is at every time. A value; any thread may read
+// it.
 class World {
  public:
   World() = default;
@@ -48,27 +49,43 @@ class World {
   // Null if there is no such object, or for id 0.
   const Body* FindObject(ObjectId id) const;
 
-  // Exact pose; none for an unknown id.
+  // The exact pose; none for an unknown id.
   std::optional<Pose> T_W_B(ObjectId id, Time t) const;
   // H_W with T_W_B(to) = H_W * T_W_B(from); none for an unknown id.
   std::optional<Pose> MotionOf(ObjectId id, Time from, Time to) const;
 
-  // What contains the point at time t (boundaries included): the lowest id above 0, else 0 for a
-  // static body, else none.
+  // As WorldAtTime; for many questions at one time make one of those.
   std::optional<ObjectId> ObjectAt(const Eigen::Vector3d& p_W, Time t) const;
-  // Whether this one body contains it.
-  static bool Contains(const Body& body, const Eigen::Vector3d& p_W, Time t);
-
-  // What the shape, placed at T_W_G, touches at time t: the lowest id above 0, else 0 for a static
-  // body, else none. Exact for convex shapes to about 1e-9 m; triangle meshes count with their
-  // inside.
   std::optional<ObjectId> Touched(const Shape& shape, const Pose& T_W_G, Time t) const;
-
-  // The world-aligned box around the body at time t.
-  static Aabb BoxW(const Body& body, Time t);
 
  private:
   std::vector<Body> bodies_;
+};
+
+// A world at one time: ground truth for points and shapes. Immutable; any thread may read it. It
+// must not outlive the world.
+class WorldAtTime {
+ public:
+  WorldAtTime(const World& world, Time t);
+
+  // What contains the point (boundaries included): the lowest id above 0, else 0 for a static body,
+  // else none.
+  std::optional<ObjectId> ObjectAt(const Eigen::Vector3d& p_W) const;
+
+  // What the shape, placed at T_W_G, touches: the lowest id above 0, else 0 for a static body, else
+  // none. Gaps below about 1e-9 m count as contact; triangle meshes count with their inside. It
+  // shares no code with the checkers of the collision layer, so that they can be judged by it.
+  std::optional<ObjectId> Touched(const Shape& shape, const Pose& T_W_G) const;
+
+ private:
+  struct Placed {
+    ObjectId id;
+    const BodyPart* part;
+    Pose T_W_G;
+    Pose T_G_W;
+    Aabb box_W;
+  };
+  std::vector<Placed> placed_;  // objects by id, then the static bodies
 };
 
 }  // namespace clearway
