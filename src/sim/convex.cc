@@ -2,8 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace clearway {
@@ -80,7 +80,7 @@ std::vector<Support> Pieces(const Shape& shape, const Pose& T_W_G) {
 
 // Up to four points of the Minkowski difference.
 struct Simplex {
-  std::array<Eigen::Vector3d, 4> points;
+  Eigen::Matrix<double, 3, 4> points = Eigen::Matrix<double, 3, 4>::Zero();
   int size = 0;
 };
 
@@ -88,15 +88,15 @@ struct Simplex {
 // between them.
 bool NearestOf(const Simplex& chosen, Eigen::Vector3d& nearest) {
   const int edges = chosen.size - 1;
-  nearest = chosen.points[0];
+  nearest = chosen.points.col(0);
   if (edges == 0) return true;
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> E(3, edges);
-  for (int i = 0; i < edges; ++i) E.col(i) = chosen.points[i + 1] - chosen.points[0];
+  for (int i = 0; i < edges; ++i) E.col(i) = chosen.points.col(i + 1) - chosen.points.col(0);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram = E.transpose() * E;
   const auto lu = gram.fullPivLu();
   if (!lu.isInvertible()) return false;
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> weights =
-      lu.solve(-E.transpose() * chosen.points[0]);
+      lu.solve(-E.transpose() * chosen.points.col(0));
   if ((weights.array() < 0).any() || weights.sum() > 1) return false;
   nearest += E * weights;
   return true;
@@ -110,7 +110,7 @@ Eigen::Vector3d Reduce(Simplex& simplex) {
   for (int mask = 1; mask < 1 << simplex.size; ++mask) {
     Simplex chosen;
     for (int i = 0; i < simplex.size; ++i) {
-      if (mask >> i & 1) chosen.points[chosen.size++] = simplex.points[i];
+      if (mask >> i & 1) chosen.points.col(chosen.size++) = simplex.points.col(i);
     }
     Eigen::Vector3d point;
     if (NearestOf(chosen, point) && point.squaredNorm() < best_squared) {
@@ -126,13 +126,13 @@ Eigen::Vector3d Reduce(Simplex& simplex) {
 bool Touch(const Support& a, const Support& b) {
   Simplex simplex;
   Eigen::Vector3d nearest = a(Eigen::Vector3d::UnitX()) - b(-Eigen::Vector3d::UnitX());
-  simplex.points[simplex.size++] = nearest;
+  simplex.points.col(simplex.size++) = nearest;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (nearest.norm() <= kTouchingM || simplex.size == 4) return true;
     const Eigen::Vector3d point = a(-nearest) - b(nearest);
     const double reach = nearest.dot(point) / nearest.norm();
     if (reach > kTouchingM) return false;  // `nearest` is a separating axis
-    simplex.points[simplex.size++] = point;
+    simplex.points.col(simplex.size++) = point;
     nearest = Reduce(simplex);
   }
   return nearest.norm() <= 1e-6;  // rounding went round in circles at a grazing contact
