@@ -1,0 +1,40 @@
+// Ready-made worlds by name.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/sim/simulation.h"
+
+namespace clearway {
+
+// Choices that every scenario offers. A plain value; default: exact, at full size.
+struct ScenarioOptions {
+  std::uint64_t seed = 1;  // of all noise; the worlds do not depend on it
+  SlamNoise noise;
+  double range_noise_m = 0;
+  ObjectReport report = ObjectReport::kMotions;
+  bool report_visible_only = false;
+  bool keep_no_return = false;
+
+  std::optional<std::size_t> frame_count;  // default: the scenario's length
+  std::optional<int> beams;                // LiDAR: 16, 32 or 64
+  std::optional<int> azimuth_steps;        // LiDAR: rays per beam
+  std::optional<int> image_width_px;       // camera; the height is 3/4 of it
+};
+
+// crossing: a road with traffic seen by a LiDAR at the roadside, 8 s at 10 Hz; a delivery robot has
+//   to cross (tasks[0]). 0.1 m voxels.
+// street: a drive of 480 m past 14 moving objects with a LiDAR on the roof, 10 Hz. 0.1 m voxels.
+// lab: a room with swinging and turning boxes before a depth camera, 8 s at 15 Hz. 0.05 m voxels.
+// small: a box, a cylinder and a wedge before a wall, seen by a small LiDAR: quick, for tests.
+std::vector<std::string> ScenarioNames();
+
+// NOT_FOUND for an unknown name, listing the known ones; INVALID_ARGUMENT naming the option.
+absl::StatusOr<Simulation> MakeScenario(const std::string& name,
+                                        const ScenarioOptions& options = {});
+
+}  // namespace clearway
