@@ -1,0 +1,66 @@
+// Folders of labelled LiDAR scans with poses and boxes; the format is in docs/formats.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/io/frame_source.h"
+
+namespace clearway {
+
+// Which of a folder's pairs of tables to read: poses.csv and objects.csv, poses_icp.csv and
+// objects_icp.csv, or those of oxts. kAny: the first pair that is there, in this order.
+enum class LidarPoses { kAny, kPlain, kIcp, kOxts };
+
+// What frames say of the objects: world motions H_W(k) = T_W_B(k) * T_W_B(k-1)^-1 (eq. 2), the
+// boxes' poses T_W_B, or nothing.
+enum class LidarObjects { kMotions, kPoses, kNone };
+
+struct LidarFolderOptions {
+  LidarPoses poses = LidarPoses::kAny;
+  LidarObjects objects = LidarObjects::kMotions;
+  int first_frame = 0;  // by the number in the tables; both ends belong to the range
+  int last_frame = std::numeric_limits<int>::max();
+  // Take a frame without a file of points for a scan without points; else it is an error.
+  bool allow_missing_points = false;
+  std::string sensor_id = "lidar";
+};
+
+// Where the sensor was at one frame.
+struct RecordedPose {
+  int frame = 0;
+  Time stamp;
+  Pose T_W_S;
+};
+
+// A labelled box: x along its length, z up, origin at its centre.
+struct RecordedBox {
+  int frame = 0;
+  ObjectId id = 0;
+  std::string type;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height
+  Pose T_W_B;
+  int n_points = 0;
+};
+
+// An opened folder. A value.
+struct LidarFolder {
+  // The frames of the range. Frame::sequence is the number in the tables, labels are track ids.
+  // A motion is there when both boxes are, and the frame before belongs to the range too.
+  FrameSource frames;
+  // All of the tables, whatever the range: what really happened before and after.
+  std::vector<RecordedPose> poses;  // ascending frames
+  std::vector<RecordedBox> boxes;   // ascending (frame, id)
+};
+
+// Reads the tables; points are read with each frame. Stamps are the column timestamp_ns, else
+// 0.1 s times the frame's number. NOT_FOUND for a missing folder, table or file of points;
+// INVALID_ARGUMENT for anything malformed, naming file, line and column, or the byte.
+absl::StatusOr<LidarFolder> OpenLidarFolder(const std::filesystem::path& folder,
+                                            const LidarFolderOptions& options = {});
+
+}  // namespace clearway

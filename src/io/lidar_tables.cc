@@ -1,0 +1,146 @@
+#include "io/lidar_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <tuple>
+
+#include "absl/strings/str_cat.h"
+#include "io/csv.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // KITTI's rate, 10 Hz
+constexpr std::int64_t kMaxFrame = 99'999'999;
+// The tables round to six digits; beyond this a matrix is no rotation.
+constexpr double kRotationTolerance = 1e-3;
+
+using PoseColumns = std::array<std::size_t, 12>;
+
+absl::StatusOr<PoseColumns> FindPoseColumns(const CsvTable& table) {
+  PoseColumns columns;
+  for (int i = 0; i < 12; ++i) {
+    const absl::StatusOr<std::size_t> column =
+        table.Column(absl::StrCat("T", i / 4, i % 4));  // T00 ... T23
+    if (!column.ok()) return column.status();
+    columns[i] = *column;
+  }
+  return columns;
+}
+
+absl::StatusOr<std::vector<std::size_t>> FindColumns(const CsvTable& table,
+                                                     std::initializer_list<const char*> names) {
+  std::vector<std::size_t> columns;
+  for (const char* name : names) {
+    const absl::StatusOr<std::size_t> column = table.Column(name);
+    if (!column.ok()) return column.status();
+    columns.push_back(*column);
+  }
+  return columns;
+}
+
+// The 3x4 matrix of a row. INVALID_ARGUMENT if its left part is no rotation.
+absl::StatusOr<Pose> ReadPose(const CsvTable& table, std::size_t row, const PoseColumns& columns) {
+  CsvRow reader(table, row);
+  Eigen::Matrix<double, 3, 4> matrix;
+  for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = reader.Number(columns[i]);
+  if (!reader.status().ok()) return reader.status();
+  const Eigen::Matrix3d R = matrix.leftCols<3>();
+  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error <= kRotationTolerance) || R.determinant() < 0) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        table.Where(row), ", columns T00 to T22: not a rotation (its columns are off unit length ",
+        "and right angles by ", error, "; the limit is ", kRotationTolerance, ")"));
+  }
+  return Pose::FromMatrix(matrix);
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path) {
+  const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
+  if (!table.ok()) return table.status();
+  const auto frame_column = table->Column("frame");
+  if (!frame_column.ok()) return frame_column.status();
+  const auto pose_columns = FindPoseColumns(*table);
+  if (!pose_columns.ok()) return pose_columns.status();
+  const bool stamped = table->HasColumn("timestamp_ns");
+  const std::size_t stamp_column = stamped ? *table->Column("timestamp_ns") : 0;
+
+  std::vector<RecordedPose> poses;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    CsvRow reader(*table, row);
+    RecordedPose pose;
+    pose.frame = static_cast<int>(reader.Integer(*frame_column, 0, kMaxFrame));
+    pose.stamp = TimeFromNanoseconds(
+        stamped ? reader.Integer(stamp_column, 0, std::numeric_limits<std::int64_t>::max())
+                : pose.frame * kNanosecondsPerFrame);
+    if (!reader.status().ok()) return reader.status();
+    const absl::StatusOr<Pose> T_W_S = ReadPose(*table, row, *pose_columns);
+    if (!T_W_S.ok()) return T_W_S.status();
+    pose.T_W_S = *T_W_S;
+    if (!poses.empty() && (pose.frame <= poses.back().frame || pose.stamp <= poses.back().stamp)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(table->Where(row), ": frame ", pose.frame, " at ", ToNanoseconds(pose.stamp),
+                       " ns does not come after frame ", poses.back().frame, " at ",
+                       ToNanoseconds(poses.back().stamp), " ns"));
+    }
+    poses.push_back(pose);
+  }
+  if (poses.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no pose under the header"));
+  }
+  return poses;
+}
+
+absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::path& path,
+                                                        const std::vector<RecordedPose>& poses) {
+  const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
+  if (!table.ok()) return table.status();
+  const auto columns = FindColumns(*table, {"frame", "track", "type", "l", "w", "h", "n_points"});
+  if (!columns.ok()) return columns.status();
+  const auto pose_columns = FindPoseColumns(*table);
+  if (!pose_columns.ok()) return pose_columns.status();
+
+  constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
+  std::vector<RecordedBox> boxes;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    CsvRow reader(*table, row);
+    RecordedBox box;
+    box.frame = static_cast<int>(reader.Integer((*columns)[0], 0, kMaxFrame));
+    box.id = static_cast<ObjectId>(reader.Integer((*columns)[1], 1, kMaxId));
+    box.type = reader.Text((*columns)[2]);
+    for (int i = 0; i < 3; ++i) box.size_m[i] = reader.Number((*columns)[3 + i]);
+    box.n_points = static_cast<int>(reader.Integer((*columns)[6], 0, kMaxId));
+    if (!reader.status().ok()) return reader.status();
+    if ((box.size_m.array() <= 0).any()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(table->Where(row), ", columns l, w, h: a box of ", box.size_m.x(), " x ",
+                       box.size_m.y(), " x ", box.size_m.z(), " m; each length must be above 0"));
+    }
+    if (!std::binary_search(poses.begin(), poses.end(), RecordedPose{box.frame, {}, {}},
+                            [](const auto& a, const auto& b) { return a.frame < b.frame; })) {
+      return absl::InvalidArgumentError(absl::StrCat(table->Where(row, (*columns)[0]), ": frame ",
+                                                     box.frame, " has no pose of the sensor"));
+    }
+    const absl::StatusOr<Pose> T_W_B = ReadPose(*table, row, *pose_columns);
+    if (!T_W_B.ok()) return T_W_B.status();
+    box.T_W_B = *T_W_B;
+    boxes.push_back(std::move(box));
+  }
+
+  const auto key = [](const RecordedBox& box) { return std::tie(box.frame, box.id); };
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [&](const RecordedBox& a, const RecordedBox& b) { return key(a) < key(b); });
+  const auto twice = std::adjacent_find(
+      boxes.begin(), boxes.end(),
+      [&](const RecordedBox& a, const RecordedBox& b) { return key(a) == key(b); });
+  if (twice != boxes.end()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", twice->frame,
+                                                   " has two boxes of track ", twice->id));
+  }
+  return boxes;
+}
+
+}  // namespace clearway
