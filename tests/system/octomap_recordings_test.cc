@@ -1,0 +1,109 @@
+// On real scans our static map holds the voxels of OctoMap's, in both ray modes.
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "clearway/io/lidar_folder.h"
+#include "clearway/scene/scene_builder.h"
+#include "support/data_folder.h"
+#include "support/octomap_oracle.h"
+
+namespace clearway {
+namespace {
+
+// With CLEARWAY_ALL_FRAMES set every frame is compared, which takes minutes; else some.
+std::vector<std::size_t> FramesOf(const FrameSource& source, std::size_t step) {
+  std::vector<std::size_t> frames;
+  if (std::getenv("CLEARWAY_ALL_FRAMES") != nullptr) step = 1;
+  for (std::size_t k = 0; k < source.frame_count; k += step) frames.push_back(k);
+  return frames;
+}
+
+// OctoMap's update by one frame: the rays of all points but label -1, the end voxels of objects
+// taken out.
+class OctomapStaticMap {
+ public:
+  OctomapStaticMap(double resolution_m, const RayOptions& rays)
+      : tree_(resolution_m), rays_(rays) {}
+
+  void Insert(const Frame& frame) {
+    octomap::Pointcloud all, fixed;
+    for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
+      if (frame.labels[i] == kIgnoreLabel) continue;
+      const Eigen::Vector3f p_W = (frame.T_W_S * frame.points_S[i].cast<double>()).cast<float>();
+      all.push_back(testing_support::ToOctomap(p_W));
+      if (frame.labels[i] == kStaticLabel) fixed.push_back(testing_support::ToOctomap(p_W));
+    }
+    const auto origin = testing_support::ToOctomap(frame.T_W_S.translation.cast<float>());
+    octomap::KeySet free, ends, static_free, static_ends;
+    Compute(all, origin, free, ends);
+    Compute(fixed, origin, static_free, static_ends);
+    for (const auto& key : free) tree_.updateNode(key, false, true);
+    for (const auto& key : static_ends) tree_.updateNode(key, true, true);
+    objects_only_ += static_cast<std::int64_t>(ends.size() - static_ends.size());
+  }
+  octomap::OcTree& tree() {
+    tree_.updateInnerOccupancy();
+    return tree_;
+  }
+  std::int64_t objects_only() const { return objects_only_; }
+
+ private:
+  void Compute(const octomap::Pointcloud& cloud, const octomap::point3d& origin,
+               octomap::KeySet& free, octomap::KeySet& ends) {
+    if (rays_.discretize) {
+      tree_.computeDiscreteUpdate(cloud, origin, free, ends, rays_.max_range_m);
+    } else {
+      tree_.computeUpdate(cloud, origin, free, ends, rays_.max_range_m);
+    }
+  }
+  octomap::OcTree tree_;
+  RayOptions rays_;
+  std::int64_t objects_only_ = 0;
+};
+
+struct Case {
+  const char* folder;
+  std::size_t step;
+  RayOptions rays;
+};
+class OctomapRecordingsTest : public testing::TestWithParam<Case> {};
+
+TEST_P(OctomapRecordingsTest, SameStaticMap) {
+  const auto data = DataFolder();
+  if (!data) return;
+  const auto folder = OpenLidarFolder(*data / GetParam().folder);
+  ASSERT_TRUE(folder.ok()) << folder.status();
+  SceneParams params;
+  params.rays = GetParam().rays;
+  ThreadPool pool(2);
+  SceneBuilder dut(params, {}, pool);
+  OctomapStaticMap oracle(params.resolution_m, params.rays);
+  for (std::size_t k : FramesOf(folder->frames, GetParam().step)) {
+    const auto frame = folder->frames.read(k);
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    ASSERT_TRUE(dut.Apply(*frame).ok());
+    oracle.Insert(*frame);
+  }
+  const auto comparison = testing_support::Compare(dut.Publish()->static_map_W, oracle.tree());
+  std::cout << comparison.voxels << " voxels, " << comparison.state_differences
+            << " states differ, log-odds differ by at most " << comparison.largest_log_odds_error
+            << "; " << oracle.objects_only() << " end voxels of objects alone\n";
+  EXPECT_GT(comparison.voxels, 100'000);
+  EXPECT_EQ(comparison.state_differences, 0);
+  EXPECT_LT(comparison.largest_log_odds_error, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, OctomapRecordingsTest,
+                         testing::Values(Case{"kitti0000_full", 10, {50.0, false}},
+                                         Case{"kitti0000_full", 20, {50.0, true}},
+                                         Case{"kitti0000_fov", 25, {50.0, false}},
+                                         Case{"kitti0000_fov", 25, {50.0, true}},
+                                         Case{"kitti0000_fov", 40, {-1, false}},
+                                         Case{"kitti0000_fov", 40, {-1, true}}),
+                         [](const auto& drive) { return "Drive" + std::to_string(drive.index); });
+
+}  // namespace
+}  // namespace clearway
