@@ -22,7 +22,8 @@ Aabb KnownBox(const SceneAtTime& scene) {
   }
   const double limit_m = scene.scene().static_map_W.grid().limit_m();
   box = Intersection(box, scene.scene().params.bounds_W);
-  return Intersection(box, {Eigen::Vector3d::Constant(-limit_m), Eigen::Vector3d::Constant(limit_m)});
+  return Intersection(box,
+                      {Eigen::Vector3d::Constant(-limit_m), Eigen::Vector3d::Constant(limit_m)});
 }
 
 // The boxes in which something else than the static map may block.

@@ -11,8 +11,8 @@
 namespace clearway {
 namespace {
 
-constexpr int kDepth = 16;                     // levels below the root; voxels are the last
-constexpr std::int32_t kHalfWidth = 1 << 15;   // of the root, in voxels
+constexpr int kDepth = 16;                    // levels below the root; voxels are the last
+constexpr std::int32_t kHalfWidth = 1 << 15;  // of the root, in voxels
 constexpr int kBlockDepth = kDepth - kBlockBits;
 constexpr double kClampTolerance = 0.001;
 
@@ -101,8 +101,8 @@ class TreeReader {
     if (header_.nodes > 0) {
       const VoxelKey root{-kHalfWidth, -kHalfWidth, -kHalfWidth};
       nodes_ = 1;
-      const bool done = header_.format == OctomapFormat::kBinary ? BinaryNode(root, 0)
-                                                                 : FullNode(root, 0);
+      const bool done =
+          header_.format == OctomapFormat::kBinary ? BinaryNode(root, 0) : FullNode(root, 0);
       if (!done) return error_;
     }
     filler_.Flush();
@@ -118,8 +118,8 @@ class TreeReader {
   // Two bits for each child: 1 free, 2 occupied, 3 a node of its own.
   bool BinaryNode(VoxelKey base, int depth) {
     if (bytes_.size() - at_ < 2) return Fail("the file is cut off");
-    const unsigned codes = static_cast<unsigned char>(bytes_[at_]) |
-                           static_cast<unsigned char>(bytes_[at_ + 1]) << 8;
+    const unsigned codes =
+        static_cast<unsigned char>(bytes_[at_]) | static_cast<unsigned char>(bytes_[at_ + 1]) << 8;
     if (codes == 0) return Fail("an inner node without children");
     at_ += 2;
     for (int i = 0; i < 8; ++i) {
@@ -170,9 +170,9 @@ class TreeReader {
 
   bool Leaf(VoxelKey base, int depth, LogOdds value) {
     if (filler_.Fill(base, depth, value)) return true;
-    error_ = absl::ResourceExhaustedError(
-        absl::StrCat(name_, ", byte ", at_, ": the tree expands to more than ", limits_.max_voxels,
-                     " voxels, the limit"));
+    error_ = absl::ResourceExhaustedError(absl::StrCat(name_, ", byte ", at_,
+                                                       ": the tree expands to more than ",
+                                                       limits_.max_voxels, " voxels, the limit"));
     return false;
   }
 
@@ -196,8 +196,7 @@ class TreeReader {
 }  // namespace
 
 absl::StatusOr<OctomapFile> ParseOctomap(const std::string& name, std::string_view bytes,
-                                         const OccupancyModel& model,
-                                         const OctomapLimits& limits) {
+                                         const OccupancyModel& model, const OctomapLimits& limits) {
   const absl::StatusOr<OctomapHeader> header = ParseOctomapHeader(name, bytes);
   if (!header.ok()) return header.status();
   OctomapFile file{header->format, header->tree_type, VoxelMap(header->resolution_m, model)};

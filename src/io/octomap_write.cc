@@ -1,5 +1,7 @@
 #include <octomap/OcTree.h>
 
+#include <charconv>
+#include <iterator>
 #include <sstream>
 
 #include "absl/strings/str_cat.h"
@@ -65,15 +67,15 @@ VoxelMap StatesOf(const VoxelMap& map) {
   return states;
 }
 
-// OctoMap writes the resolution with the stream's precision; six digits would shift the grid.
-int DigitsOf(double resolution_m) {
-  for (int digits = 6; digits < 17; ++digits) {
-    std::ostringstream out;
-    out.precision(digits);
-    out << resolution_m;
-    if (std::stod(out.str()) == resolution_m) return digits;
-  }
-  return 17;
+// As OctoMap writes it, but with the resolution's digits in full (six would shift the grid), and
+// without the message on stderr.
+std::string Header(const octomap::OcTree& tree, OctomapFormat format) {
+  char resolution[32];
+  const auto end = std::to_chars(resolution, std::end(resolution), tree.getResolution()).ptr;
+  return absl::StrCat(
+      format == OctomapFormat::kBinary ? "# Octomap OcTree binary file" : "# Octomap OcTree file",
+      "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n",
+      "id OcTree\nsize ", tree.size(), "\nres ", std::string(resolution, end), "\ndata\n");
 }
 
 }  // namespace
@@ -82,15 +84,16 @@ absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat 
   const absl::Status status = CheckFits(map);
   if (!status.ok()) return status;
   std::ostringstream out(std::ios::binary);
-  out.precision(DigitsOf(map.grid().resolution_m()));
   try {
     octomap::OcTree tree(map.grid().resolution_m());
     if (format == OctomapFormat::kBinary) {
       Fill(StatesOf(map), tree);
-      tree.writeBinaryConst(out);
+      out << Header(tree, format);
+      tree.writeBinaryData(out);
     } else {
       Fill(map, tree);
-      tree.write(out);
+      out << Header(tree, format);
+      tree.writeData(out);
     }
   } catch (const std::exception& error) {  // memory above all
     return absl::InternalError(absl::StrCat("OctoMap: ", error.what()));

@@ -281,8 +281,12 @@ TEST(OctomapFile, RefusesTreesThatOctomapWouldReadBeyondBounds) {
 }
 
 TEST(OctomapFile, RefusesAWrongNumberOfNodes) {
-  std::string bytes = kHeader + std::string("\x0b\x00\x01\x00", 4);  // root, two children, one more
-  EXPECT_THAT(ErrorOf(bytes), HasSubstr("4 nodes; the header says 2"));
+  VoxelMap map(0.1);
+  map.Set({0, 0, 0}, 0);
+  std::string bytes = Serialized(map, OctomapFormat::kBinary);
+  ASSERT_THAT(bytes, HasSubstr("size 17\n"));
+  bytes.replace(bytes.find("size 17"), 7, "size 18");
+  EXPECT_THAT(ErrorOf(bytes), HasSubstr("17 nodes; the header says 18"));
 }
 
 TEST(OctomapFile, RefusesATreeThatExpandsBeyondTheLimit) {
