@@ -1,0 +1,59 @@
+// OctoMap's files in and out; what they keep and lose is in docs/formats.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "clearway/map/voxel_map.h"
+#include "clearway/scene/occupancy.h"
+
+namespace clearway {
+
+// .bt keeps the three-way state alone, .ot the log-odds.
+enum class OctomapFormat { kBinary, kFull };
+
+// Guards against files that would not fit into memory.
+struct OctomapLimits {
+  std::uint64_t max_bytes = std::uint64_t{1} << 30;
+  // Of the map in memory, which stores whole blocks of 512 voxels in 1.2 kB each: 1.2 GB.
+  std::int64_t max_voxels = std::int64_t{1} << 29;
+};
+
+// A map that was read.
+struct OctomapFile {
+  OctomapFormat format = OctomapFormat::kBinary;
+  std::string tree_type;  // as the header says: "OcTree", "ColorOcTree", ...
+  VoxelMap map;           // in the frame of the file; its resolution is the file's
+  // Voxels whose log-odds were beyond the model's clamps by more than 0.001 and were pulled in.
+  std::int64_t clamped_voxels = 0;
+};
+
+// Reads `.bt` and `.ot` of OcTree, ColorOcTree and OcTreeStamped (colours and stamps are left out),
+// told apart by their first line. Pruned leaves are expanded to voxels. A voxel's state is that of
+// OctoMap at the model's threshold; .bt gives the clamps as log-odds. The whole file must be one
+// tree: INVALID_ARGUMENT names the line of the header, or the byte, at which it is cut off, goes on
+// after its end, nests deeper than 16 levels, or holds a value that is no number;
+// RESOURCE_EXHAUSTED what exceeds the limits, before memory is taken. `name` names the file in
+// messages.
+absl::StatusOr<OctomapFile> ParseOctomap(const std::string& name, std::string_view bytes,
+                                         const OccupancyModel& model = {},
+                                         const OctomapLimits& limits = {});
+absl::StatusOr<OctomapFile> ReadOctomap(const std::filesystem::path& path,
+                                        const OccupancyModel& model = {},
+                                        const OctomapLimits& limits = {});
+
+// The file of a map, by OctoMap's own library. OUT_OF_RANGE if a voxel's index is outside OctoMap's
+// 16 bits.
+absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat format);
+
+// Writes `.bt` or `.ot`, by the path's extension; INVALID_ARGUMENT for another one.
+absl::Status WriteOctomap(const std::filesystem::path& path, const VoxelMap& map);
+
+// Writes the whole scene at its time: what FlattenScene makes of it.
+absl::Status WriteSceneAsOctomap(const std::filesystem::path& path, const SceneAtTime& scene);
+
+}  // namespace clearway

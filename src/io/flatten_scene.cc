@@ -1,0 +1,93 @@
+#include "clearway/io/flatten_scene.h"
+
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+Aabb Intersection(const Aabb& a, const Aabb& b) {
+  return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+}
+
+// Around everything whose place is known; what may be anywhere in a swept bound counts where it was
+// last placed.
+Aabb KnownBox(const SceneAtTime& scene) {
+  Aabb box = scene.scene().static_map_W.ObservedBox();
+  for (const SceneAtTime::Placed& placed : scene.objects()) {
+    box.Extend(placed.beyond_horizon_radius_m
+                   ? Transformed(placed.T_W_O, placed.object->solid->box_O)
+                   : placed.box_W);
+  }
+  const double limit_m = scene.scene().static_map_W.grid().limit_m();
+  box = Intersection(box, scene.scene().params.bounds_W);
+  return Intersection(box,
+                      {Eigen::Vector3d::Constant(-limit_m), Eigen::Vector3d::Constant(limit_m)});
+}
+
+// The boxes in which something else than the static map may block.
+std::vector<Aabb> BoxesToSearch(const SceneAtTime& scene) {
+  const Aabb known_W = KnownBox(scene);
+  std::vector<Aabb> boxes;
+  const auto add = [&](const Aabb& box_W) {
+    const Aabb part = Intersection(box_W, known_W);
+    if (!part.Empty()) boxes.push_back(part);
+  };
+  for (const SceneAtTime::Placed& placed : scene.objects()) add(placed.box_W);
+  for (const Aabb& box_W : scene.scene().params.keep_out_W) add(box_W);
+  return boxes;
+}
+
+void Block(VoxelMap& map, VoxelKey key) {
+  if (map.State(key) != VoxelState::kOccupied) map.Set(key, map.model().clamp_max);
+}
+
+void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last, VoxelMap& map) {
+  for (std::int32_t z = first.z; z <= last.z; ++z) {
+    for (std::int32_t y = first.y; y <= last.y; ++y) {
+      for (std::int32_t x = first.x; x <= last.x; ++x) {
+        const SpaceStatus status = scene.At(map.grid().CenterOf({x, y, z})).status;
+        if (status == SpaceStatus::kOccupied || status == SpaceStatus::kBeyondHorizon) {
+          Block(map, {x, y, z});
+        }
+      }
+    }
+  }
+}
+
+// An object thinner than a voxel can lie between the voxels' centres.
+void BlockVoxelsOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, VoxelMap& map) {
+  if (placed.beyond_horizon_radius_m) return;
+  const VoxelMap& map_O = placed.object->map_O;
+  map_O.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    block.occupied.ForEach([&](int index) {
+      const Eigen::Vector3d p_W = placed.T_W_O * map_O.grid().CenterOf(VoxelAt(key, index));
+      if (!scene.scene().params.bounds_W.Contains(p_W) || !map.grid().Addressable(p_W)) return;
+      Block(map, map.grid().KeyOf(p_W));
+    });
+  });
+}
+
+}  // namespace
+
+absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max_voxels) {
+  VoxelMap map = scene.scene().static_map_W;
+  const std::vector<Aabb> boxes = BoxesToSearch(scene);
+  double voxels = 0;
+  for (const Aabb& box : boxes) {
+    voxels += (box.Size().array() / map.grid().resolution_m() + 1).prod();
+  }
+  if (voxels > static_cast<double>(max_voxels)) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the objects' boxes and keep-out zones hold about ", voxels,
+                     " voxels; the limit is ", max_voxels));
+  }
+  for (const Aabb& box : boxes) {
+    BlockInBox(scene, map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), map);
+  }
+  for (const SceneAtTime::Placed& placed : scene.objects()) BlockVoxelsOf(scene, placed, map);
+  return map;
+}
+
+}  // namespace clearway
