@@ -30,13 +30,13 @@ struct Robot {
   static Robot SingleShape(std::string name, Shape shape);
 };
 
-// INVALID_ARGUMENT naming the field: no links, a link without shapes, sizes that are not finite and
-// positive, meshes that are empty or whose indices are out of range, hulls without volume, poses
-// that are not rigid.
+// INVALID_ARGUMENT naming the field: no links, a link without shapes, sizes that are not positive
+// or above 10 km, meshes that are empty or whose indices are out of range, hulls that have no
+// volume, are not convex or face inward, poses that are not rigid.
 absl::Status Validate(const Robot& robot);
 
-// The hash of the robot's content, by which a server knows it: equal robots have equal ids on every
-// machine.
+// The hash of the robot's content (names too) in 32 hex digits (XXH3-128), by which a server knows
+// it: equal robots have equal ids on every machine.
 std::string RobotId(const Robot& robot);
 
 }  // namespace clearway

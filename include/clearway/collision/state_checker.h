@@ -21,7 +21,12 @@ struct StateBatch {
   std::vector<Pose> T_W_L;  // state-major: link l of state s is at s * (number of links) + l
 };
 
-// How unknown space counts. There is no default on the wire; here it is the safe one.
+// How space that the static map has never observed counts. There is no default on the wire; here it
+// is the safe one.
+//
+// kBlocked: every unobserved voxel is an obstacle, with padding, as an occupied one is.
+// kFree: none is. kTolerated: unobserved voxels are no obstacles, but the share of the robot's own
+// volume (without padding) that lies in them is limited.
 enum class UnknownPolicy { kBlocked, kFree, kTolerated };
 
 // What a check takes into account, beside the scene. A plain value.
@@ -30,21 +35,26 @@ struct CheckOptions {
   // For kTolerated: the share of the robot's volume that may be unknown. The volume is counted in
   // static voxels whose centre lies in the robot.
   double max_unknown_fraction = 0;
-  // Declared free of unknown space (the robot's start, a blind zone); they hide no obstacle.
+  // Voxels whose centre lies in one of these are not unknown (the robot's start, a blind zone); no
+  // obstacle is hidden.
   std::vector<Aabb> known_free_W;
 
-  double padding_m = 0;      // added all round the robot
-  double inflation_mps = 0;  // added round each moving object per second after its t_k
+  // Added all round the robot: it touches what is this close or closer. Bounds do not see it.
+  double padding_m = 0;
+  // Added round each moving object, solid or swept ball, per second after its t_k.
+  double inflation_mps = 0;
 
-  std::vector<ObjectId> ignored_objects;
-  std::vector<std::pair<int, ObjectId>>
-      allowed_contacts;  // (link, object); object 0 is the static map
+  std::vector<ObjectId> ignored_objects;  // those the scene does not have are fine
+  // (link, object) that may touch. Object 0 is the static map with its keep-out boxes, but not
+  // unknown space: for that there is known_free_W.
+  std::vector<std::pair<int, ObjectId>> allowed_contacts;
 
   // If set, also the clearance, searched up to this distance.
   std::optional<double> clearance_up_to_m;
 };
 
-// INVALID_ARGUMENT naming the field and the limit.
+// INVALID_ARGUMENT naming the field and the limit: lengths are at most 100 km, inflation 1 km/s,
+// ids of ignored objects at least 1, links those of the robot.
 absl::Status Validate(const CheckOptions& options, const Robot& robot);
 
 struct StateAnswer {
@@ -53,10 +63,11 @@ struct StateAnswer {
   // -1 when the status is kFree.
   int link = -1;
   ObjectId object = kStaticLabel;
-  // Share of the robot's volume in unknown space, 0 to 1, whatever the policy.
+  // Share of the robot's volume in unknown space, 0 to 1, whatever the policy; 1 out of bounds. A
+  // robot that holds no voxel's centre is judged by the voxels at its shapes' centres.
   double unknown_fraction = 0;
-  // Distance to whatever the policy blocks, 0 in contact, at most clearance_up_to_m; set when asked
-  // for.
+  // Distance from the padded robot to whatever the policy blocks (not to the bounds), 0 in contact
+  // and out of bounds, at most clearance_up_to_m; set when asked for.
   std::optional<double> clearance_m;
 };
 
@@ -72,9 +83,9 @@ class StateChecker {
  public:
   virtual ~StateChecker() = default;
 
-  // INVALID_ARGUMENT for a batch whose arrays do not fit, poses that are not rigid, or options that
-  // Validate refuses; a remote checker may also fail as its transport does. Whoever gets an error
-  // must treat every state as not free.
+  // INVALID_ARGUMENT for a batch whose arrays do not fit, poses that are not finite or not rigid,
+  // times beyond 2^62 ns, or options that Validate refuses; a remote checker may also fail as its
+  // transport does. Whoever gets an error must treat every state as not free.
   virtual absl::StatusOr<CheckReply> Check(const StateBatch& states,
                                            const CheckOptions& options) const = 0;
 

@@ -43,8 +43,7 @@ struct ConvexPolytope {
   std::shared_ptr<const Mesh> mesh;
 };
 
-// The surface of a mesh, and nothing inside it: a shape wholly inside a closed mesh does not touch
-// it.
+// The surface of a mesh and, if it is closed, all that it encloses (see Contains).
 struct TriangleMesh {
   std::shared_ptr<const Mesh> mesh;
 };

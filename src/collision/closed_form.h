@@ -1,0 +1,24 @@
+// Distances that have a closed form. All are in metres and 0 where the sets meet.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "clearway/geometry/aabb.h"
+#include "clearway/geometry/shape.h"
+
+namespace clearway {
+
+double BoxBoxDistance(const Aabb& a, const Aabb& b);
+double PointBoxDistance(const Eigen::Vector3d& p, const Aabb& box);
+
+// Of the segment from a to b.
+double SegmentBoxDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Aabb& box);
+
+// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
+double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+// From a point to a shape, both in G; shapes are solid in the sense of Contains.
+double PointShapeDistance(const Eigen::Vector3d& p_G, const Shape& shape);
+
+}  // namespace clearway

@@ -1,0 +1,70 @@
+// Shape against shape. FCL stays behind this header.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "clearway/geometry/aabb.h"
+#include "clearway/geometry/pose.h"
+#include "clearway/geometry/shape.h"
+
+namespace clearway {
+
+// A shape prepared for distance queries, in its own frame G. Immutable and cheap to copy; threads
+// share it.
+class ShapeGeometry {
+ public:
+  // Meshes must not be empty.
+  explicit ShapeGeometry(const Shape& shape);
+
+  const Shape& shape() const { return shape_; }
+  const Aabb& box_G() const { return box_G_; }
+  // For hulls and meshes, points whose convex hull is the shape's; empty for the others.
+  const std::vector<Eigen::Vector3d>& corners_G() const { return *corners_G_; }
+
+  struct Fcl;  // FCL's form of the shape
+  const Fcl& fcl() const { return *fcl_; }
+
+ private:
+  Shape shape_;
+  Aabb box_G_;
+  std::shared_ptr<const std::vector<Eigen::Vector3d>> corners_G_;
+  std::shared_ptr<const Fcl> fcl_;
+};
+
+// A shape at a pose in a frame F. Immutable; refers to the geometry it was made of.
+//
+// Distances are in metres and 0 where the two meet; both sides are solid, a closed mesh too. A
+// distance is exact (to 1e-8 m) if it is at most up_to_m; beyond that it is some value greater than
+// up_to_m. So "meets within a margin" is DistanceTo(x, margin) <= margin. An exception of FCL or
+// libccd gives 0: contact.
+class PlacedShape {
+ public:
+  PlacedShape(const ShapeGeometry& geometry, const Pose& T_F_G);
+
+  const Aabb& box_F() const { return box_F_; }  // the smallest
+  // The same body, seen from another frame.
+  PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
+  bool Contains(const Eigen::Vector3d& p_F) const;
+
+  double DistanceTo(const Aabb& box_F, double up_to_m) const;
+  // A convex hull at T_F_H.
+  double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
+  double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
+
+ private:
+  const Eigen::Vector3d& origin_F() const { return T_F_G_.translation; }
+  Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
+    return R_F_G_.transpose() * (p_F - T_F_G_.translation);
+  }
+  Aabb TightBox() const;
+  double LowerBound(const Aabb& box_F) const;
+
+  const ShapeGeometry* geometry_;
+  Pose T_F_G_;
+  Eigen::Matrix3d R_F_G_;
+  Aabb box_F_;
+};
+
+}  // namespace clearway

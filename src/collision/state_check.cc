@@ -1,0 +1,185 @@
+#include "collision/state_check.h"
+
+#include <algorithm>
+
+#include "collision/unknown_share.h"
+#include "collision/voxel_distance.h"
+
+namespace clearway {
+
+RobotGeometry PrepareRobot(const Robot& robot) {
+  RobotGeometry geometry;
+  for (const Link& link : robot.links) {
+    LinkGeometry& prepared = geometry.emplace_back();
+    for (const LinkShape& shape : link.shapes) {
+      prepared.parts.push_back({ShapeGeometry(shape.shape), shape.T_L_G});
+    }
+  }
+  return geometry;
+}
+
+StateCheck::StateCheck(const CheckContext& context, const RobotGeometry& robot, const Pose* T_W_L)
+    : context_(context) {
+  links_W_.resize(robot.size());
+  for (std::size_t link = 0; link < robot.size(); ++link) {
+    const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
+    for (const LinkGeometry::Part& part : robot[link].parts) {
+      links_W_[link].emplace_back(part.geometry, T_W_link * part.T_L_G);
+    }
+  }
+}
+
+StateAnswer StateCheck::Answer() const {
+  StateAnswer answer;
+  const auto conclude = [&](SpaceStatus status, const std::optional<Touch>& touch) {
+    answer.status = status;
+    answer.link = touch ? touch->link : -1;
+    answer.object = touch ? touch->object : kStaticLabel;
+  };
+  if (const auto touch = OutOfBounds()) {
+    conclude(SpaceStatus::kOutOfBounds, touch);
+    answer.unknown_fraction = 1;
+    if (context_.options.clearance_up_to_m) answer.clearance_m = 0;
+    return answer;
+  }
+  answer.unknown_fraction = UnknownShare();
+  if (const auto occupied = Occupied()) {
+    conclude(SpaceStatus::kOccupied, occupied);
+  } else if (const auto beyond = BeyondHorizon()) {
+    conclude(SpaceStatus::kBeyondHorizon, beyond);
+  } else if (const auto unknown = Unobserved()) {
+    conclude(SpaceStatus::kUnknownSpace, unknown);
+  } else if (context_.options.unknown == UnknownPolicy::kTolerated &&
+             answer.unknown_fraction > context_.options.max_unknown_fraction) {
+    conclude(SpaceStatus::kUnknownSpace, Touch{0, kStaticLabel});
+  } else {
+    conclude(SpaceStatus::kFree, std::nullopt);
+  }
+  if (context_.options.clearance_up_to_m) answer.clearance_m = Clearance();
+  return answer;
+}
+
+std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
+  const Aabb& bounds = context_.scene.params.bounds_W;
+  const VoxelGrid& grid = context_.scene.static_map_W.grid();
+  for (std::size_t link = 0; link < links_W_.size(); ++link) {
+    for (const PlacedShape& shape : links_W_[link]) {
+      for (const Eigen::Vector3d& corner : {shape.box_F().min, shape.box_F().max}) {
+        if (bounds.Contains(corner) && grid.Addressable(corner)) continue;
+        return Touch{static_cast<int>(link), kStaticLabel};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StateCheck::Touch> StateCheck::Occupied() const {
+  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+    if (!Allowed(link, kStaticLabel) && TouchesStatic(link)) return Touch{link, kStaticLabel};
+    for (const PlacedObject& object : context_.objects) {
+      if (!object.ball_radius_m && TouchesObject(link, object)) {
+        return Touch{link, object.object->id};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StateCheck::Touch> StateCheck::BeyondHorizon() const {
+  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+    for (const PlacedObject& object : context_.objects) {
+      if (object.ball_radius_m && TouchesObject(link, object)) {
+        return Touch{link, object.object->id};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
+  if (context_.options.unknown != UnknownPolicy::kBlocked) return std::nullopt;
+  const VoxelMap& map = context_.scene.static_map_W;
+  const auto counts = [&](VoxelKey key) {
+    return !InOneOf(context_.options.known_free_W, map.grid().CenterOf(key));
+  };
+  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+    for (const PlacedShape& shape : links_W_[link]) {
+      if (TouchesVoxels<UnobservedVoxels>(map, shape, context_.options.padding_m, counts)) {
+        return Touch{link, kStaticLabel};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+double StateCheck::UnknownShare() const {
+  std::vector<const PlacedShape*> shapes;
+  for (const auto& link : links_W_) {
+    for (const PlacedShape& shape : link) shapes.push_back(&shape);
+  }
+  return UnknownShareOf(context_.scene.static_map_W, context_.options.known_free_W, shapes);
+}
+
+// Lets every kind of obstacle search only as far as the nearest one so far.
+double StateCheck::Clearance() const {
+  const CheckOptions& options = context_.options;
+  const double padding_m = options.padding_m;
+  double nearest_m = *options.clearance_up_to_m + padding_m;
+  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+    if (!Allowed(link, kStaticLabel)) {
+      nearest_m = std::min(nearest_m, StaticDistance(link, nearest_m));
+    }
+    for (const PlacedShape& shape : links_W_[link]) {
+      for (const PlacedObject& object : context_.objects) {
+        if (Allowed(link, object.object->id)) continue;
+        nearest_m = std::min(nearest_m, DistanceTo(object, shape, nearest_m));
+      }
+      if (options.unknown != UnknownPolicy::kBlocked) continue;
+      nearest_m = std::min(nearest_m, DistanceToUnobserved(context_.scene.static_map_W, shape,
+                                                           options.known_free_W, nearest_m));
+    }
+  }
+  return std::max(0.0, nearest_m - padding_m);
+}
+
+bool StateCheck::Allowed(int link, ObjectId object) const {
+  return context_.allowed_contacts.contains({link, object});
+}
+
+bool StateCheck::TouchesStatic(int link) const {
+  const double padding_m = context_.options.padding_m;
+  for (const PlacedShape& shape : links_W_[link]) {
+    for (const Aabb& box_W : context_.scene.params.keep_out_W) {
+      if (shape.DistanceTo(box_W, padding_m) <= padding_m) return true;
+    }
+    if (TouchesVoxels<OccupiedVoxels>(context_.scene.static_map_W, shape, padding_m,
+                                      [](VoxelKey) { return true; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool StateCheck::TouchesObject(int link, const PlacedObject& object) const {
+  if (Allowed(link, object.object->id)) return false;
+  const double padding_m = context_.options.padding_m;
+  for (const PlacedShape& shape : links_W_[link]) {
+    if (!shape.box_F().Padded(padding_m).Intersects(object.box_W)) continue;
+    if (DistanceTo(object, shape, padding_m) <= padding_m) return true;
+  }
+  return false;
+}
+
+double StateCheck::StaticDistance(int link, double up_to_m) const {
+  double nearest_m = up_to_m;
+  for (const PlacedShape& shape : links_W_[link]) {
+    for (const Aabb& box_W : context_.scene.params.keep_out_W) {
+      nearest_m = std::min(nearest_m, shape.DistanceTo(box_W, nearest_m));
+    }
+    nearest_m =
+        std::min(nearest_m, DistanceToOccupied(context_.scene.static_map_W, shape, nearest_m));
+  }
+  return nearest_m;
+}
+
+}  // namespace clearway

@@ -1,0 +1,67 @@
+#include "collision/unknown_share.h"
+
+#include <cstdint>
+#include <set>
+
+#include "collision/voxel_search.h"
+
+namespace clearway {
+namespace {
+
+struct Count {
+  std::int64_t all = 0;
+  std::int64_t unknown = 0;
+  double Share() const { return static_cast<double>(unknown) / static_cast<double>(all); }
+};
+
+// Each voxel is counted with the first of the shapes that holds its centre.
+Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
+                  const std::vector<const PlacedShape*>& shapes) {
+  Count count;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const auto counted_before = [&](const Eigen::Vector3d& center) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (shapes[j]->box_F().Contains(center) && shapes[j]->Contains(center)) return true;
+      }
+      return false;
+    };
+    KeyRange keys;
+    if (!KeysTouching(map.grid(), shapes[i]->box_F(), keys)) continue;
+    AnyBlock<true>(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+                   [&](BlockKey block_key, const VoxelBlock* block) {
+                     const BlockMask unobserved = UnobservedVoxels::Of(block);
+                     MaskOfRange(block_key, keys).ForEach([&](int index) {
+                       const Eigen::Vector3d center =
+                           map.grid().CenterOf(VoxelAt(block_key, index));
+                       if (!shapes[i]->Contains(center) || counted_before(center)) return;
+                       ++count.all;
+                       count.unknown += unobserved.Test(index) && !InOneOf(known_free, center);
+                     });
+                     return false;
+                   });
+  }
+  return count;
+}
+
+Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
+                     const std::vector<const PlacedShape*>& shapes) {
+  std::set<VoxelKey> keys;
+  for (const PlacedShape* shape : shapes) keys.insert(map.grid().KeyOf(shape->box_F().Center()));
+  Count count;
+  for (const VoxelKey& key : keys) {
+    ++count.all;
+    count.unknown +=
+        map.State(key) == VoxelState::kUnknown && !InOneOf(known_free, map.grid().CenterOf(key));
+  }
+  return count;
+}
+
+}  // namespace
+
+double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
+                      const std::vector<const PlacedShape*>& shapes_W) {
+  const Count inside = CountInside(map_W, known_free_W, shapes_W);
+  return inside.all > 0 ? inside.Share() : CountAtCenters(map_W, known_free_W, shapes_W).Share();
+}
+
+}  // namespace clearway

@@ -1,0 +1,93 @@
+#include "collision/validation.h"
+
+#include <limits>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/scene/frame.h"
+
+namespace clearway {
+namespace {
+
+constexpr double kMaxDistance_m = 1e5;
+constexpr double kMaxInflation_mps = 1e3;
+constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 62;
+
+absl::Status Invalid(const std::string& field, const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
+}
+
+absl::Status CheckBetween(const char* field, double value, double low, double high) {
+  if (value >= low && value <= high) return absl::OkStatus();  // false for NaN
+  return Invalid(field, absl::StrCat("is ", value, "; it must lie between ", low, " and ", high));
+}
+
+absl::Status CheckLists(const CheckOptions& options, const Robot& robot) {
+  for (std::size_t i = 0; i < options.known_free_W.size(); ++i) {
+    const Aabb& box = options.known_free_W[i];
+    if (box.min.allFinite() && box.max.allFinite() && !box.Empty()) continue;
+    return Invalid(absl::StrCat("known_free[", i, "]"),
+                   "must be finite with min at most max on each axis");
+  }
+  for (std::size_t i = 0; i < options.ignored_objects.size(); ++i) {
+    if (options.ignored_objects[i] > 0) continue;
+    return Invalid(absl::StrCat("ignored_objects[", i, "]"),
+                   absl::StrCat("is ", options.ignored_objects[i],
+                                "; an object's id is at least 1 (the static map is not ignored)"));
+  }
+  for (std::size_t i = 0; i < options.allowed_contacts.size(); ++i) {
+    const auto& [link, object] = options.allowed_contacts[i];
+    const std::string field = absl::StrCat("allowed_contacts[", i, "]");
+    if (link < 0 || link >= static_cast<int>(robot.links.size())) {
+      return Invalid(absl::StrCat(field, ".link"),
+                     absl::StrCat("is ", link, "; the robot has ", robot.links.size(), " links"));
+    }
+    if (object < kStaticLabel) {
+      return Invalid(absl::StrCat(field, ".object_id"),
+                     absl::StrCat("is ", object, "; it must be at least 0"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status Validate(const CheckOptions& options, const Robot& robot) {
+  const UnknownPolicy unknown = options.unknown;
+  if (unknown != UnknownPolicy::kBlocked && unknown != UnknownPolicy::kFree &&
+      unknown != UnknownPolicy::kTolerated) {
+    return Invalid("unknown", absl::StrCat("is ", static_cast<int>(unknown), ", not a policy"));
+  }
+  for (const absl::Status& status :
+       {CheckBetween("max_unknown_fraction", options.max_unknown_fraction, 0, 1),
+        CheckBetween("padding_m", options.padding_m, 0, kMaxDistance_m),
+        CheckBetween("inflation_mps", options.inflation_mps, 0, kMaxInflation_mps),
+        CheckBetween("clearance_up_to_m", options.clearance_up_to_m.value_or(0), 0, kMaxDistance_m),
+        CheckLists(options, robot)}) {
+    if (!status.ok()) return status;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Validate(const StateBatch& states, const Robot& robot) {
+  const std::size_t links = robot.links.size();
+  if (states.T_W_L.size() != states.times.size() * links) {
+    return Invalid("world_from_link",
+                   absl::StrCat("has ", states.T_W_L.size(), " poses; ", states.times.size(),
+                                " states of ", links, " links need ", states.times.size() * links));
+  }
+  for (std::size_t s = 0; s < states.times.size(); ++s) {
+    const std::int64_t time_ns = ToNanoseconds(states.times[s]);
+    if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) continue;
+    return Invalid(absl::StrCat("times_ns[", s, "]"),
+                   absl::StrCat("is ", time_ns, "; it must lie within ", kMaxTime_ns, " of 0"));
+  }
+  for (std::size_t i = 0; i < states.T_W_L.size(); ++i) {
+    const auto status = ValidatePose(absl::StrCat("world_from_link[", i, "]"), states.T_W_L[i],
+                                     std::numeric_limits<double>::max());
+    if (!status.ok()) return status;
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace clearway

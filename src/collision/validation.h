@@ -1,0 +1,14 @@
+// What a checker refuses.
+#pragma once
+
+#include "absl/status/status.h"
+#include "clearway/collision/state_checker.h"
+
+namespace clearway {
+
+// INVALID_ARGUMENT naming the field: arrays that do not fit each other or the robot, poses that are
+// not finite or not of unit rotation, times whose differences could overflow. A pose anywhere is
+// valid; far off it is out of bounds.
+absl::Status Validate(const StateBatch& states, const Robot& robot);
+
+}  // namespace clearway

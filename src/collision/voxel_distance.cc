@@ -1,0 +1,123 @@
+#include "collision/voxel_distance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "collision/closed_form.h"
+
+namespace clearway {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+Aabb BoxOfBlock(const VoxelGrid& grid, BlockKey key) {
+  Aabb box = grid.BoxOf(VoxelAt(key, 0));
+  box.max = grid.BoxOf(VoxelAt(key, kVoxelsPerBlock - 1)).max;
+  return box;
+}
+
+// Lowers nearest_m by the voxels of one block.
+template <class Counts>
+void SearchBlock(const VoxelGrid& grid, BlockKey block_key, const BlockMask& voxels,
+                 const PlacedShape& shape, Counts&& counts, double& nearest_m) {
+  voxels.ForEach([&](int index) {
+    const VoxelKey key = VoxelAt(block_key, index);
+    const Aabb box = grid.BoxOf(key);
+    if (BoxBoxDistance(shape.box_F(), box) >= nearest_m || !counts(key)) return;
+    nearest_m = std::min(nearest_m, shape.DistanceTo(box, nearest_m));
+  });
+}
+
+// A cube of 2^level blocks along an edge.
+struct Cell {
+  double bound_m;
+  int level;
+  BlockKey min;
+  bool operator>(const Cell& other) const {
+    return std::tie(bound_m, level, min) > std::tie(other.bound_m, other.level, other.min);
+  }
+};
+
+Aabb BoxOfCell(const VoxelGrid& grid, BlockKey min, int level) {
+  const std::int32_t last = (1 << level) - 1;
+  Aabb box = BoxOfBlock(grid, min);
+  box.max = BoxOfBlock(grid, {min.x + last, min.y + last, min.z + last}).max;
+  return box;
+}
+
+bool WithinOneOf(const std::vector<Aabb>& boxes, const Aabb& inner) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& box) {
+    return box.Contains(inner.min) && box.Contains(inner.max);
+  });
+}
+
+}  // namespace
+
+// Blocks in the order of their distance, until the next one is farther than what was found.
+double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m) {
+  KeyRange keys;
+  if (!KeysTouching(map.grid(), shape.box_F().Padded(up_to_m), keys)) return kFar;
+  struct Candidate {
+    double bound_m;
+    BlockKey key;
+    const VoxelBlock* block;
+  };
+  std::vector<Candidate> candidates;
+  map.blocks().ForEachIn(
+      BlockOf(keys.min), BlockOf(keys.max), [&](BlockKey key, const VoxelBlock& block) {
+        if (!block.occupied.Any()) return;
+        const double bound_m = BoxBoxDistance(shape.box_F(), BoxOfBlock(map.grid(), key));
+        if (bound_m <= up_to_m) candidates.push_back({bound_m, key, &block});
+      });
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.bound_m, a.key) < std::tie(b.bound_m, b.key);
+  });
+  double nearest_m = std::nextafter(up_to_m, kFar);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.bound_m >= nearest_m) break;
+    SearchBlock(
+        map.grid(), candidate.key, candidate.block->occupied, shape, [](VoxelKey) { return true; },
+        nearest_m);
+  }
+  return nearest_m;
+}
+
+// Best first through an implicit octree over all addressable blocks: a region never observed has no
+// end, but its nearest part is found after a few descents; regions declared free are cut off whole.
+double DistanceToUnobserved(const VoxelMap& map, const PlacedShape& shape,
+                            const std::vector<Aabb>& known_free, double up_to_m) {
+  constexpr int kRootLevel =
+      std::countr_zero(static_cast<unsigned>(2 * kMaxVoxelIndex / kBlockSize));
+  constexpr std::int32_t kLowest = -kMaxVoxelIndex / kBlockSize;
+  const VoxelGrid& grid = map.grid();
+  const auto counts = [&](VoxelKey key) { return !InOneOf(known_free, grid.CenterOf(key)); };
+  double nearest_m = std::nextafter(up_to_m, kFar);
+  std::priority_queue<Cell, std::vector<Cell>, std::greater<>> open;
+  open.push({0, kRootLevel, {kLowest, kLowest, kLowest}});
+  while (!open.empty() && open.top().bound_m < nearest_m) {
+    const Cell cell = open.top();
+    open.pop();
+    if (cell.level == 0) {
+      SearchBlock(grid, cell.min, UnobservedVoxels::Of(map.blocks().Find(cell.min)), shape, counts,
+                  nearest_m);
+      continue;
+    }
+    const int level = cell.level - 1;
+    for (int child = 0; child < 8; ++child) {
+      const BlockKey min{cell.min.x + ((child & 1) << level),
+                         cell.min.y + ((child >> 1 & 1) << level),
+                         cell.min.z + ((child >> 2) << level)};
+      const Aabb box = BoxOfCell(grid, min, level);
+      const double bound_m = BoxBoxDistance(shape.box_F(), box);
+      if (bound_m < nearest_m && !WithinOneOf(known_free, box)) open.push({bound_m, level, min});
+    }
+  }
+  return nearest_m;
+}
+
+}  // namespace clearway
