@@ -1,0 +1,40 @@
+// What a planned path is, and what the scene says of it.
+#pragma once
+
+#include <ompl/geometric/PathGeometric.h>
+
+#include <optional>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/planning/state_query.h"
+
+namespace clearway {
+
+struct TimedPose {
+  Time time;
+  Pose T_W_L;  // of the robot's first link
+};
+
+// The path's states in their order; between two of them the robot moves at constant speed. The
+// error is StateMapping::TimeOf's.
+absl::StatusOr<std::vector<TimedPose>> TimedPoses(const ompl::geometric::PathGeometric& path,
+                                                  const StateMapping& mapping);
+
+// The answers along a path, in the steps of the query's options.
+struct PathCheck {
+  bool free = false;                 // every answer is kFree, and there is one
+  std::vector<Time> times;           // of each answer
+  std::vector<StateAnswer> answers;  // the first state, then each motion's in turn
+  // The first answer that is not free.
+  std::optional<std::size_t> first_blocked;
+  // Mean share of the robot's volume in unknown space over all answers: how much unknown space the
+  // path crosses, whatever the policy.
+  double unknown_fraction = 0;
+};
+
+// Checks every motion of the path with one call of the checker. A motion that cannot be checked
+// (StateQuery::CheckMotion) gives one answer, at the time of its end.
+PathCheck CheckPath(const ompl::geometric::PathGeometric& path, const StateQuery& query);
+
+}  // namespace clearway

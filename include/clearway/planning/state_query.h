@@ -1,0 +1,83 @@
+// OMPL states put to a StateChecker.
+#pragma once
+
+#include <ompl/base/StateSpace.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "clearway/collision/state_checker.h"
+#include "clearway/planning/state_mapping.h"
+
+namespace clearway {
+
+// What a plan is checked against, and how finely. A plain value.
+struct PlanningOptions {
+  CheckOptions check;
+  // Between two checked states of a motion no point of the robot moves further (half a voxel of 10
+  // cm) ...
+  double step_m = 0.05;
+  // ... and no more time passes: a robot that waits is checked as often as one that drives at 2
+  // m/s. An object of v m/s is met within v * step / 2 of a checked pose: add that as padding where
+  // it matters.
+  Duration time_step = std::chrono::milliseconds(25);
+  // Motions that would need more states are refused.
+  int max_states_per_motion = 100'000;
+  // How far clearance() looks.
+  double clearance_up_to_m = 1.0;
+};
+
+// INVALID_ARGUMENT naming the field and the limit.
+absl::Status Validate(const PlanningOptions& options, const Robot& robot);
+
+// Checks OMPL states of one space with one StateChecker, so on one scene version. Every failure
+// makes kUnresolved answers (not free) and is counted. Any thread may call any method.
+class StateQuery {
+ public:
+  // The mapping must fit the space, the options the checker's robot (see MakeSpaceInformation).
+  StateQuery(ompl::base::StateSpacePtr space, std::shared_ptr<const StateChecker> checker,
+             StateMapping mapping, PlanningOptions options);
+
+  // Both: kOutOfBounds, without asking the checker, for a state outside the space's bounds.
+  StateAnswer CheckState(const ompl::base::State* state) const;
+  // With StateAnswer::clearance_m, up to PlanningOptions::clearance_up_to_m.
+  StateAnswer CheckClearance(const ompl::base::State* state) const;
+
+  // Cuts the motion into n equal parts as PlanningOptions asks and checks the states at fractions
+  // 1/n, 2/n, ..., 1 with one call of the checker: n >= 1 answers. A motion that cannot be checked
+  // (its time runs backwards or the speed limits are broken, among others) gives one kUnresolved.
+  // `times`, if not null, gets the answers' times.
+  std::vector<StateAnswer> CheckMotion(const ompl::base::State* from, const ompl::base::State* to,
+                                       std::vector<Time>* times = nullptr) const;
+
+  const ompl::base::StateSpace& space() const { return *space_; }
+  const StateChecker& checker() const { return *checker_; }
+  const StateMapping& mapping() const { return mapping_; }
+  const PlanningOptions& options() const { return options_; }
+
+  // Failures so far, and the first of them (OK if there was none). A plan found in spite of
+  // failures is still free; a plan not found may be due to them.
+  std::int64_t error_count() const { return error_count_.load(); }
+  absl::Status first_error() const;
+
+ private:
+  StateAnswer CheckOne(const ompl::base::State* state, const CheckOptions& options) const;
+  std::vector<StateAnswer> Answer(const StateBatch& batch, const CheckOptions& options) const;
+  std::vector<StateAnswer> Unresolved(std::size_t size, const absl::Status& why) const;
+  double StepCount(const ompl::base::State* from, const ompl::base::State* to) const;
+
+  ompl::base::StateSpacePtr space_;
+  std::shared_ptr<const StateChecker> checker_;
+  StateMapping mapping_;
+  PlanningOptions options_;
+  CheckOptions clearance_options_;
+  mutable std::atomic<std::int64_t> error_count_ = 0;
+  mutable std::mutex mutex_;
+  mutable absl::Status first_error_;  // guarded by mutex_
+};
+
+}  // namespace clearway

@@ -1,0 +1,71 @@
+#include "clearway/planning/space_time_problem.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+
+namespace ob = ompl::base;
+
+GoalPoseBefore::GoalPoseBefore(const ob::SpaceInformationPtr& si, const ob::State* start,
+                               const ob::State* goal_part, const GoalOptions& options)
+    : ob::GoalSampleableRegion(si),
+      space_time_(si->getStateSpace()->as<SpaceTimeStateSpace>()),
+      goal_part_(space_time_->space()->cloneState(goal_part)),
+      earliest_s_(SpaceTimeStateSpace::SecondsOf(start) +
+                  space_time_->MinSeconds(SpaceTimeStateSpace::SpacePart(start), goal_part)),
+      latest_s_(options.latest ? std::min(ToSeconds(*options.latest), space_time_->latest_s())
+                               : space_time_->latest_s()) {
+  setThreshold(options.tolerance);
+}
+
+GoalPoseBefore::~GoalPoseBefore() { space_time_->space()->freeState(goal_part_); }
+
+double GoalPoseBefore::distanceGoal(const ob::State* state) const {
+  if (SpaceTimeStateSpace::SecondsOf(state) > latest_s_) return space_time_->UnreachableDistance();
+  return space_time_->space()->distance(SpaceTimeStateSpace::SpacePart(state), goal_part_);
+}
+
+void GoalPoseBefore::sampleGoal(ob::State* state) const {
+  space_time_->space()->copyState(SpaceTimeStateSpace::SpacePart(state), goal_part_);
+  SpaceTimeStateSpace::SetSeconds(state, rng_.uniformReal(earliest_s_, latest_s_));
+}
+
+unsigned int GoalPoseBefore::maxSampleCount() const {
+  return std::numeric_limits<unsigned int>::max();
+}
+
+absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInformationPtr& si,
+                                                              const ob::State* start,
+                                                              const ob::State* goal_part,
+                                                              const GoalOptions& options) {
+  auto* space_time = dynamic_cast<SpaceTimeStateSpace*>(si->getStateSpace().get());
+  if (space_time == nullptr) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("si: space '", si->getStateSpace()->getName(), "' has no time component"));
+  }
+  if (!space_time->satisfiesBounds(start)) {
+    return absl::InvalidArgumentError("start: outside the space's bounds");
+  }
+  if (!space_time->space()->satisfiesBounds(goal_part)) {
+    return absl::InvalidArgumentError("goal_part: outside the space's bounds");
+  }
+  const double latest_s = options.latest
+                              ? std::min(ToSeconds(*options.latest), space_time->latest_s())
+                              : space_time->latest_s();
+  const double arrival_s = SpaceTimeStateSpace::SecondsOf(start) +
+                           space_time->MinSeconds(SpaceTimeStateSpace::SpacePart(start), goal_part);
+  if (!(arrival_s <= latest_s)) {
+    return absl::InvalidArgumentError(absl::StrCat("goal_part: reached at full speed at ",
+                                                   arrival_s, " s, the limit is ", latest_s, " s"));
+  }
+  space_time->Focus(start, goal_part);
+  auto problem = std::make_shared<ob::ProblemDefinition>(si);
+  problem->addStartState(start);
+  problem->setGoal(std::make_shared<GoalPoseBefore>(si, start, goal_part, options));
+  return problem;
+}
+
+}  // namespace clearway

@@ -1,0 +1,197 @@
+#include "clearway/planning/state_mapping.h"
+
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/planning/space_time.h"
+
+namespace clearway {
+namespace {
+
+namespace ob = ompl::base;
+using Se2State = ob::SE2StateSpace::StateType;
+using Se3State = ob::SE3StateSpace::StateType;
+using RState = ob::RealVectorStateSpace::StateType;
+
+// Seconds that fit into Time with room to add an epoch: 100 years.
+constexpr double kMaxSeconds = 3.2e9;
+
+Aabb BoxOf(const Robot& robot) {
+  Aabb box_L;
+  for (const Link& link : robot.links) {
+    for (const LinkShape& shape : link.shapes) {
+      box_L.Extend(Transformed(shape.T_L_G, BoundingBox(shape.shape)));
+    }
+  }
+  return box_L;
+}
+
+// The distance of the box's farthest corner from L's origin, or from its z axis.
+Eigen::Vector3d FarthestCorner(const Robot& robot) {
+  const Aabb box_L = BoxOf(robot);
+  return box_L.min.cwiseAbs().cwiseMax(box_L.max.cwiseAbs());
+}
+
+std::function<double(double, double)> LinkHeight(const Robot& robot, Ground ground) {
+  const double above_ground_m = ground.clearance_m - BoxOf(robot).min.z();
+  return [height_m = std::move(ground.height_m), above_ground_m](double x_m, double y_m) {
+    return height_m(x_m, y_m) + above_ground_m;
+  };
+}
+
+void SetAll(std::span<Pose> T_W_L, const Pose& pose) { std::ranges::fill(T_W_L, pose); }
+
+double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
+
+double AngleBetween(double yaw_a, double yaw_b) {
+  return std::abs(std::remainder(yaw_a - yaw_b, 2 * std::numbers::pi));
+}
+
+Eigen::Quaterniond RotationOf(const Se3State& state) {
+  const auto& q = state.rotation();
+  return {q.w, q.x, q.y, q.z};
+}
+
+const RState& AsR(const ob::State* state) { return *state->as<RState>(); }
+
+}  // namespace
+
+StateMapping::StateMapping(Kind kind, std::size_t links, Kinematics kinematics, MotionBound bound,
+                           TimeSource time)
+    : kind_(kind),
+      links_(links),
+      kinematics_(std::make_shared<const Kinematics>(std::move(kinematics))),
+      bound_(bound ? std::make_shared<const MotionBound>(std::move(bound)) : nullptr),
+      time_(time) {}
+
+StateMapping StateMapping::Se2(const Robot& robot, Ground ground, TimeSource time) {
+  const auto z_m = LinkHeight(robot, std::move(ground));
+  const double radius_m = FarthestCorner(robot).head<2>().norm();
+  auto kinematics = [z_m](const ob::State* state, std::span<Pose> T_W_L) {
+    const auto& s = *state->as<Se2State>();
+    SetAll(T_W_L, {Eigen::Quaterniond(Eigen::AngleAxisd(s.getYaw(), Eigen::Vector3d::UnitZ())),
+                   {s.getX(), s.getY(), z_m(s.getX(), s.getY())}});
+  };
+  auto bound = [z_m, radius_m](const ob::State* from, const ob::State* to) {
+    const auto& a = *from->as<Se2State>();
+    const auto& b = *to->as<Se2State>();
+    return Distance({a.getX(), a.getY(), z_m(a.getX(), a.getY())},
+                    {b.getX(), b.getY(), z_m(b.getX(), b.getY())}) +
+           radius_m * AngleBetween(a.getYaw(), b.getYaw());
+  };
+  return StateMapping(Kind::kSe2, robot.links.size(), kinematics, bound, time);
+}
+
+StateMapping StateMapping::R2(const Robot& robot, Ground ground, TimeSource time) {
+  auto position = [z_m = LinkHeight(robot, std::move(ground))](const ob::State* state) {
+    const RState& s = AsR(state);
+    return Eigen::Vector3d(s[0], s[1], z_m(s[0], s[1]));
+  };
+  auto kinematics = [position](const ob::State* state, std::span<Pose> T_W_L) {
+    SetAll(T_W_L, {Eigen::Quaterniond::Identity(), position(state)});
+  };
+  auto bound = [position](const ob::State* from, const ob::State* to) {
+    return Distance(position(from), position(to));
+  };
+  return StateMapping(Kind::kR2, robot.links.size(), kinematics, bound, time);
+}
+
+StateMapping StateMapping::Se3(const Robot& robot, TimeSource time) {
+  auto kinematics = [](const ob::State* state, std::span<Pose> T_W_L) {
+    const auto& s = *state->as<Se3State>();
+    SetAll(T_W_L, {RotationOf(s), {s.getX(), s.getY(), s.getZ()}});
+  };
+  auto bound = [radius_m = FarthestCorner(robot).norm()](const ob::State* from,
+                                                         const ob::State* to) {
+    const auto& a = *from->as<Se3State>();
+    const auto& b = *to->as<Se3State>();
+    return Distance({a.getX(), a.getY(), a.getZ()}, {b.getX(), b.getY(), b.getZ()}) +
+           radius_m * RotationOf(a).angularDistance(RotationOf(b));
+  };
+  return StateMapping(Kind::kSe3, robot.links.size(), kinematics, bound, time);
+}
+
+StateMapping StateMapping::R3(const Robot& robot, TimeSource time) {
+  auto position = [](const ob::State* state) {
+    const RState& s = AsR(state);
+    return Eigen::Vector3d(s[0], s[1], s[2]);
+  };
+  auto kinematics = [position](const ob::State* state, std::span<Pose> T_W_L) {
+    SetAll(T_W_L, {Eigen::Quaterniond::Identity(), position(state)});
+  };
+  auto bound = [position](const ob::State* from, const ob::State* to) {
+    return Distance(position(from), position(to));
+  };
+  return StateMapping(Kind::kR3, robot.links.size(), kinematics, bound, time);
+}
+
+StateMapping StateMapping::FromKinematics(const Robot& robot, Kinematics kinematics,
+                                          TimeSource time, MotionBound bound) {
+  return StateMapping(Kind::kOther, robot.links.size(), std::move(kinematics), std::move(bound),
+                      time);
+}
+
+absl::Status StateMapping::ValidateSpace(const ob::StateSpace& space, const Robot& robot) const {
+  if (robot.links.size() != links_) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "mapping: made for ", links_, " links, the checker's robot has ", robot.links.size()));
+  }
+  const ob::StateSpace* part = &space;
+  if (has_time()) {
+    const auto* space_time = dynamic_cast<const SpaceTimeStateSpace*>(&space);
+    if (space_time == nullptr) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "space: '", space.getName(), "' has no time component; the mapping's time is TimeSince"));
+    }
+    part = space_time->space().get();
+  }
+  const int type = part->getType();
+  const unsigned int dimension = part->getDimension();
+  const bool r_n = type == ob::STATE_SPACE_REAL_VECTOR;
+  const bool fits = (kind_ == Kind::kOther) ||
+                    (kind_ == Kind::kSe2 && type == ob::STATE_SPACE_SE2) ||
+                    (kind_ == Kind::kSe3 && type == ob::STATE_SPACE_SE3) ||
+                    (kind_ == Kind::kR2 && r_n && dimension == 2) ||
+                    (kind_ == Kind::kR3 && r_n && dimension == 3);
+  if (fits) return absl::OkStatus();
+  static constexpr const char* kNames[] = {"SE(2)", "SE(3)", "R^2", "R^3"};
+  return absl::InvalidArgumentError(absl::StrCat("space: '", part->getName(), "' of dimension ",
+                                                 dimension, " is not the mapping's ",
+                                                 kNames[static_cast<int>(kind_)]));
+}
+
+absl::StatusOr<Time> StateMapping::TimeOf(const ob::State* state) const {
+  if (const auto* fixed = std::get_if<FixedTime>(&time_)) return fixed->time;
+  const double seconds = SpaceTimeStateSpace::SecondsOf(state);
+  if (!(std::abs(seconds) <= kMaxSeconds)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("state: time ", seconds, " s is not finite or above ", kMaxSeconds, " s"));
+  }
+  return std::get<TimeSince>(time_).epoch + FromSeconds(seconds);
+}
+
+absl::Status StateMapping::Append(const ob::State* state, StateBatch& batch) const {
+  const absl::StatusOr<Time> time = TimeOf(state);
+  if (!time.ok()) return time.status();
+  batch.times.push_back(*time);
+  batch.T_W_L.resize(batch.T_W_L.size() + links_);
+  const std::span<Pose> links = std::span(batch.T_W_L).last(links_);
+  (*kinematics_)(has_time() ? SpaceTimeStateSpace::SpacePart(state) : state, links);
+  return absl::OkStatus();
+}
+
+std::optional<double> StateMapping::MotionBoundMetres(const ob::State* from,
+                                                      const ob::State* to) const {
+  if (bound_ == nullptr) return std::nullopt;
+  if (!has_time()) return (*bound_)(from, to);
+  return (*bound_)(SpaceTimeStateSpace::SpacePart(from), SpaceTimeStateSpace::SpacePart(to));
+}
+
+}  // namespace clearway

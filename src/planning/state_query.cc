@@ -1,0 +1,152 @@
+#include "clearway/planning/state_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/planning/space_time.h"
+
+namespace clearway {
+namespace {
+
+namespace ob = ompl::base;
+
+absl::Status CheckPositive(const char* field, double value) {
+  if (value > 0 && std::isfinite(value)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(field, ": ", value, " is not finite and above 0"));
+}
+
+StateAnswer OutOfBounds() {
+  StateAnswer answer;
+  answer.status = SpaceStatus::kOutOfBounds;
+  return answer;
+}
+
+// A state of `space`, freed at the end of the scope.
+class ScratchState {
+ public:
+  explicit ScratchState(const ob::StateSpace& space) : space_(space), state_(space.allocState()) {}
+  ~ScratchState() { space_.freeState(state_); }
+  ScratchState(const ScratchState&) = delete;
+  ScratchState& operator=(const ScratchState&) = delete;
+  ob::State* get() const { return state_; }
+
+ private:
+  const ob::StateSpace& space_;
+  ob::State* state_;
+};
+
+}  // namespace
+
+absl::Status Validate(const PlanningOptions& options, const Robot& robot) {
+  if (absl::Status status = Validate(options.check, robot); !status.ok()) return status;
+  if (absl::Status status = CheckPositive("step_m", options.step_m); !status.ok()) return status;
+  if (absl::Status status = CheckPositive("time_step", ToSeconds(options.time_step));
+      !status.ok()) {
+    return status;
+  }
+  if (absl::Status status = CheckPositive("max_states_per_motion", options.max_states_per_motion);
+      !status.ok()) {
+    return status;
+  }
+  return CheckPositive("clearance_up_to_m", options.clearance_up_to_m);
+}
+
+StateQuery::StateQuery(ob::StateSpacePtr space, std::shared_ptr<const StateChecker> checker,
+                       StateMapping mapping, PlanningOptions options)
+    : space_(std::move(space)),
+      checker_(std::move(checker)),
+      mapping_(std::move(mapping)),
+      options_(std::move(options)),
+      clearance_options_(options_.check) {
+  clearance_options_.clearance_up_to_m = options_.clearance_up_to_m;
+}
+
+StateAnswer StateQuery::CheckState(const ob::State* state) const {
+  return CheckOne(state, options_.check);
+}
+
+StateAnswer StateQuery::CheckClearance(const ob::State* state) const {
+  return CheckOne(state, clearance_options_);
+}
+
+StateAnswer StateQuery::CheckOne(const ob::State* state, const CheckOptions& options) const {
+  if (!space_->satisfiesBounds(state)) return OutOfBounds();
+  StateBatch batch;
+  const absl::Status status = mapping_.Append(state, batch);
+  if (!status.ok()) return Unresolved(1, status)[0];
+  return Answer(batch, options)[0];
+}
+
+std::vector<StateAnswer> StateQuery::CheckMotion(const ob::State* from, const ob::State* to,
+                                                 std::vector<Time>* times) const {
+  if (const auto* space_time = dynamic_cast<const SpaceTimeStateSpace*>(space_.get());
+      space_time != nullptr && !space_time->CanReach(from, to)) {
+    return {StateAnswer{}};  // an answer, not a failure: planners propose such motions
+  }
+  const double steps = StepCount(from, to);
+  if (!(steps <= options_.max_states_per_motion)) {
+    return Unresolved(1, absl::ResourceExhaustedError(
+                             absl::StrCat("motion: needs ", steps, " states, above the limit of ",
+                                          options_.max_states_per_motion)));
+  }
+  const int n = static_cast<int>(steps);
+  const ScratchState scratch(*space_);
+  StateBatch batch;
+  int within = 0;  // bounds are convex: once out of them, a motion that began within stays out
+  for (int i = 1; i <= n; ++i) {
+    space_->interpolate(from, to, static_cast<double>(i) / n, scratch.get());
+    const ob::State* state = i == n ? to : scratch.get();
+    const absl::Status status = mapping_.Append(state, batch);
+    if (!status.ok()) return Unresolved(1, status);
+    if (within == i - 1 && space_->satisfiesBounds(state)) within = i;
+  }
+  if (times != nullptr) *times = batch.times;
+  std::vector<StateAnswer> answers = Answer(batch, options_.check);
+  std::fill(answers.begin() + within, answers.end(), OutOfBounds());
+  return answers;
+}
+
+absl::Status StateQuery::first_error() const {
+  std::lock_guard lock(mutex_);
+  return first_error_;
+}
+
+std::vector<StateAnswer> StateQuery::Answer(const StateBatch& batch,
+                                            const CheckOptions& options) const {
+  const std::size_t size = batch.times.size();
+  absl::StatusOr<CheckReply> reply = checker_->Check(batch, options);
+  if (!reply.ok()) return Unresolved(size, reply.status());
+  if (reply->answers.size() != size) {
+    return Unresolved(size, absl::InternalError(absl::StrCat("checker: ", reply->answers.size(),
+                                                             " answers to ", size, " states")));
+  }
+  if (reply->version != checker_->version()) {
+    return Unresolved(
+        size, absl::InternalError(absl::StrCat("checker: answered on version ", reply->version,
+                                               ", pinned is ", checker_->version())));
+  }
+  return std::move(reply->answers);
+}
+
+std::vector<StateAnswer> StateQuery::Unresolved(std::size_t size, const absl::Status& why) const {
+  error_count_.fetch_add(1);
+  std::lock_guard lock(mutex_);
+  if (first_error_.ok()) first_error_ = why;
+  return std::vector<StateAnswer>(size);
+}
+
+double StateQuery::StepCount(const ob::State* from, const ob::State* to) const {
+  const std::optional<double> bound_m = mapping_.MotionBoundMetres(from, to);
+  double steps = bound_m ? std::ceil(*bound_m / options_.step_m)
+                         : static_cast<double>(space_->validSegmentCount(from, to));
+  if (mapping_.has_time()) {
+    const double seconds =
+        SpaceTimeStateSpace::SecondsOf(to) - SpaceTimeStateSpace::SecondsOf(from);
+    steps = std::max(steps, std::ceil(seconds / ToSeconds(options_.time_step)));
+  }
+  return std::isnan(steps) ? steps : std::max(steps, 1.0);
+}
+
+}  // namespace clearway
