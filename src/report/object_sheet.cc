@@ -22,7 +22,8 @@ namespace palette = report::palette;
 constexpr std::array kKinds{ViewKind::kOblique, ViewKind::kTop, ViewKind::kSide, ViewKind::kFront};
 constexpr double kMarginPx = 32;
 constexpr double kHeaderPx = 72;
-constexpr double kGapPx = 48;      // between the views of a row
+constexpr double kGapPx = 48;  // between the views of a row, at least
+constexpr double kWidestGapPx = 140;
 constexpr double kCaptionPx = 56;  // above the views of a row
 constexpr double kFooterPx = 56;   // below them
 constexpr double kTallestRowPx = 320;
@@ -34,6 +35,7 @@ struct Row {
   std::unique_ptr<VoxelViews> views;
   double px_per_m = 1;
   double view_height_px = 0;
+  double gap_px = kGapPx;
   double height_px() const { return kCaptionPx + view_height_px + kFooterPx; }
 };
 
@@ -49,6 +51,7 @@ Row RowOf(const MovingObject& object, double width_px) {
   row.px_per_m = std::min({(width_px - (kKinds.size() - 1) * kGapPx) / width_m,
                            kTallestRowPx / height_m, kFinestPxPerM});
   row.view_height_px = row.px_per_m * height_m;
+  row.gap_px = std::min((width_px - row.px_per_m * width_m) / (kKinds.size() - 1), kWidestGapPx);
   return row;
 }
 
@@ -94,7 +97,7 @@ void DrawRow(Canvas& canvas, const Row& row, const std::string& name, double y, 
                     row.px_per_m);
     canvas.Text({x + size_px.x() / 2, bottom + 32}, report::NameOf(kind),
                 {.size_px = 15, .color = palette::kMuted, .align = Align::kCenter});
-    x += size_px.x() + kGapPx;
+    x += size_px.x() + row.gap_px;
   }
   DrawScale(canvas, {right, y + 34}, row.px_per_m);
 }

@@ -106,6 +106,11 @@ class TopViewPainter {
     return ToSeconds(last);
   }
 
+  bool ShowsTimes() const {
+    return !(options_.predicted_after.empty() && options_.paths.empty() &&
+             options_.recorded.empty());
+  }
+
   Color ColorAt(Time time) const {
     return report::TimeColor(ToSeconds(time - scene_.stamp) / last_s_);
   }
@@ -240,8 +245,10 @@ class TopViewPainter {
   void PaintLegend() {
     report::Legend legend(canvas_, {options_.width_px - kMarginPx - kLegendPx, kHeaderPx},
                           kLegendPx);
-    legend.Heading("Time after now");
-    legend.TimeBar(last_s_);
+    if (ShowsTimes()) {
+      legend.Heading("Time after now");
+      legend.TimeBar(last_s_);
+    }
     legend.Heading("Moving objects");
     legend.Swatch(palette::kMoving, {palette::kInk, 1.2}, "now");
     legend.Swatch(palette::kResting, {palette::kInk, 1.2}, "labelled, at rest");
