@@ -30,7 +30,7 @@ Aabb DefaultArea(const SceneSnapshot& scene, const TopViewOptions& options) {
   constexpr double kPathMarginM = 9, kObjectMarginM = 6;
   Aabb area_W;
   for (const TopViewPath& path : options.paths) {
-    for (const TimedPose& pose : path.poses) area_W.Extend(pose.T_W_R.translation);
+    for (const TimedPose& pose : path.poses) area_W.Extend(pose.T_W_L.translation);
   }
   if (!area_W.Empty()) return area_W.Padded(kPathMarginM);
   const SceneAtTime now(scene, scene.stamp);
@@ -195,9 +195,9 @@ class TopViewPainter {
   }
 
   void PaintFootprints(const TopViewPath& path) {
-    if (options_.footprint_R.empty()) return;
+    if (options_.footprint_L.empty()) return;
     for (const TimedPose& pose : AtSteps(path.poses)) {
-      const Polygon outline = view_.ToPixels(report::Moved(options_.footprint_R, pose.T_W_R));
+      const Polygon outline = view_.ToPixels(report::Moved(options_.footprint_L, pose.T_W_L));
       canvas_.Fill(outline, ColorAt(pose.time).WithAlpha(0.13));
       canvas_.Outline(outline, {ColorAt(pose.time), 2});
     }
@@ -220,11 +220,11 @@ class TopViewPainter {
 
   static TimedPose Between(const TimedPose& from, const TimedPose& to, double fraction) {
     return {from.time + FromSeconds(ToSeconds(to.time - from.time) * fraction),
-            Interpolate(from.T_W_R, to.T_W_R, fraction)};
+            Interpolate(from.T_W_L, to.T_W_L, fraction)};
   }
 
   Eigen::Vector2d ToPixels(const TimedPose& pose) const {
-    return view_.ToPixels(Eigen::Vector2d(pose.T_W_R.translation.head<2>()));
+    return view_.ToPixels(Eigen::Vector2d(pose.T_W_L.translation.head<2>()));
   }
 
   void PaintLabels() {
@@ -273,7 +273,7 @@ class TopViewPainter {
       const report::Stroke dashed{palette::kInk, 2, 8}, solid{report::TimeColor(0.4), 5};
       legend.LineSample(path.reference ? dashed : solid, path.name);
     }
-    if (options_.footprint_R.empty()) return;
+    if (options_.footprint_L.empty()) return;
     const Color color = report::TimeColor(0.4);
     legend.Swatch(color.WithAlpha(0.13), {color, 2},
                   absl::StrFormat("footprint every %g s", ToSeconds(options_.footprint_every)));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "clearway/report/timed_pose.h"
+#include "clearway/geometry/timed_pose.h"
 #include "clearway/scene/scene_snapshot.h"
 
 namespace clearway {
@@ -40,7 +40,7 @@ struct TopViewOptions {
 
   std::vector<Duration> predicted_after;      // from the scene's stamp
   std::map<ObjectId, std::string> names;      // labels of objects; by default their ids
-  std::vector<Eigen::Vector2d> footprint_R;   // convex; drawn along the paths
+  std::vector<Eigen::Vector2d> footprint_L;   // convex, in the link; drawn along the paths
   Duration footprint_every = FromSeconds(1);  // and at each path's end
   std::vector<TopViewPath> paths;
   std::vector<TopViewOutline> recorded;

@@ -1,4 +1,4 @@
-// A robot's path through space and time.
+// A step of a path through space and time.
 #pragma once
 
 #include "clearway/base/time.h"
@@ -6,10 +6,10 @@
 
 namespace clearway {
 
-// Where a robot's frame R is at a time. A value.
+// Where a robot's link is at a time. A value.
 struct TimedPose {
   Time time;
-  Pose T_W_R;
+  Pose T_W_L;
 };
 
 }  // namespace clearway
