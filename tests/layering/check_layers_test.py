@@ -46,6 +46,11 @@ class CheckLayersTest(unittest.TestCase):
         self.assertEqual(
             len(faults_of(src__scene__x_cc='#include "map/y.h"', src__map__y_h="")), 1)
 
+    def test_converters_are_for_those_who_speak_the_wire_format(self):
+        converter = {"src__wire__y_h": ""}
+        self.assertEqual(faults_of(src__client__x_cc='#include "wire/y.h"', **converter), [])
+        self.assertEqual(len(faults_of(examples__x_cc='#include "wire/y.h"', **converter)), 1)
+
     def test_refuses_private_header_in_a_public_one(self):
         self.assertEqual(
             len(faults_of(include__clearway__map__x_h='#include "map/y.h"', src__map__y_h="")), 1)

@@ -1,0 +1,23 @@
+// How large an object is.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "clearway/scene/moving_object.h"
+
+namespace clearway {
+
+// The upright box around an object's occupied voxels. A value.
+struct ObjectExtent {
+  double yaw_rad = 0;                                // of the box's length in O, about O's z
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height
+  Eigen::Vector3d center_O = Eigen::Vector3d::Zero();
+};
+
+// The smallest upright box around the object's hull; its length lies along the motion if the object
+// moves (so that it may be the shorter side), else along the longer side. All zero for an object
+// without an occupied voxel. The smallest rectangle shares a side with the hull: Freeman and
+// Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve", 1975.
+ObjectExtent ExtentOf(const MovingObject& object);
+
+}  // namespace clearway

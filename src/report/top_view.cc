@@ -1,0 +1,297 @@
+#include "clearway/report/top_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "clearway/scene/occupancy.h"
+#include "report/legend.h"
+#include "report/map_view.h"
+
+namespace clearway {
+namespace {
+
+using report::Align;
+using report::Canvas;
+using report::Color;
+using report::MapView;
+using report::Polygon;
+namespace palette = report::palette;
+
+constexpr double kMarginPx = 32;
+constexpr double kHeaderPx = 92;
+constexpr double kLegendPx = 300;
+constexpr double kMovingMps = 0.5;  // slower objects are drawn as resting
+
+// The part of the scene that nobody asked for in particular: what the paths need, else the objects.
+Aabb DefaultArea(const SceneSnapshot& scene, const TopViewOptions& options) {
+  constexpr double kPathMarginM = 9, kObjectMarginM = 6;
+  Aabb area_W;
+  for (const TopViewPath& path : options.paths) {
+    for (const TimedPose& pose : path.poses) area_W.Extend(pose.T_W_L.translation);
+  }
+  if (!area_W.Empty()) return area_W.Padded(kPathMarginM);
+  const SceneAtTime now(scene, scene.stamp);
+  for (const SceneAtTime::Placed& placed : now.objects()) {
+    area_W.Extend(placed.box_W);
+  }
+  if (!area_W.Empty()) return area_W.Padded(kObjectMarginM);
+  area_W = scene.static_map_W.ObservedBox();
+  return area_W.Empty() ? Aabb{{-5, -5, 0}, {5, 5, 0}} : area_W;
+}
+
+// The area grown until it is neither flatter nor taller than a picture should be.
+Aabb WithinAspect(Aabb area_W) {
+  constexpr double kFlattest = 0.6, kTallest = 1.0;
+  const Eigen::Vector3d size = area_W.Size();
+  const auto grow = [&area_W](int axis, double missing) {
+    if (missing <= 0) return;
+    area_W.min[axis] -= missing / 2;
+    area_W.max[axis] += missing / 2;
+  };
+  grow(1, kFlattest * size.x() - size.y());
+  grow(0, size.y() / kTallest - size.x());
+  return area_W;
+}
+
+// One picture in the making.
+class TopViewPainter {
+ public:
+  TopViewPainter(const SceneSnapshot& scene, const TopViewOptions& options)
+      : scene_(scene),
+        options_(options),
+        now_(scene, scene.stamp),
+        view_(WithinAspect(options.area_W.value_or(DefaultArea(scene, options))),
+              {kMarginPx, kHeaderPx}, options.width_px - 3 * kMarginPx - kLegendPx),
+        canvas_(options.width_px,
+                static_cast<int>(kHeaderPx + std::max(view_.size_px().y(), 640.0) + kMarginPx)),
+        last_s_(LastSecond()) {}
+
+  Canvas& Paint() {
+    PaintHeader();
+    const Eigen::Vector2d corner = view_.top_left(), size = view_.size_px();
+    canvas_.Clip(corner.x(), corner.y(), size.x(), size.y());
+    report::DrawColumns(
+        canvas_, view_,
+        report::ColumnsOf(scene_.static_map_W, view_.area_W(), options_.max_height_m),
+        options_.max_height_m);
+    PaintObjects();
+    PaintPredictions();
+    PaintRecorded();
+    for (const TopViewPath& path : options_.paths) PaintPath(path);
+    PaintLabels();
+    report::DrawScale(canvas_, view_);
+    canvas_.ResetClip();
+    canvas_.Outline(
+        std::array<Eigen::Vector2d, 4>{{corner, corner + Eigen::Vector2d(size.x(), 0),
+                                        corner + size, corner + Eigen::Vector2d(0, size.y())}},
+        {palette::kRule, 1.5});
+    PaintLegend();
+    return canvas_;
+  }
+
+ private:
+  // From the scene's stamp to the last time shown, in seconds.
+  double LastSecond() const {
+    Duration last = FromSeconds(1);
+    for (const Duration after : options_.predicted_after) last = std::max(last, after);
+    for (const TopViewPath& path : options_.paths) {
+      if (!path.poses.empty()) last = std::max(last, path.poses.back().time - scene_.stamp);
+    }
+    for (const TopViewOutline& outline : options_.recorded) {
+      last = std::max(last, outline.time - scene_.stamp);
+    }
+    return ToSeconds(last);
+  }
+
+  bool ShowsTimes() const {
+    return !(options_.predicted_after.empty() && options_.paths.empty() &&
+             options_.recorded.empty());
+  }
+
+  Color ColorAt(Time time) const {
+    return report::TimeColor(ToSeconds(time - scene_.stamp) / last_s_);
+  }
+
+  void PaintHeader() {
+    canvas_.Text({kMarginPx, 46}, options_.title, {.size_px = 27, .bold = true});
+    canvas_.Text({kMarginPx, 75}, options_.subtitle, {.size_px = 17, .color = palette::kMuted});
+  }
+
+  void PaintObjects() {
+    for (const SceneAtTime::Placed& placed : now_.objects()) {
+      const Polygon outline =
+          view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
+      const bool moving = placed.object->SpeedMps() >= kMovingMps;
+      canvas_.Fill(outline, (moving ? palette::kMoving : palette::kResting).WithAlpha(0.9));
+      canvas_.Outline(outline, {palette::kInk, 1.2});
+    }
+  }
+
+  void PaintPredictions() {
+    for (const Duration after : options_.predicted_after) {
+      const Time time = scene_.stamp + after;
+      const double fraction = ToSeconds(after) / last_s_;
+      const Color color = ColorAt(time).WithAlpha(0.95 - 0.35 * fraction);
+      const SceneAtTime then(scene_, time);
+      for (const SceneAtTime::Placed& placed : then.objects()) {
+        if (placed.object->SpeedMps() < kMovingMps) continue;
+        const Polygon outline =
+            view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
+        canvas_.Fill(outline, color.WithAlpha(0.08));
+        canvas_.Outline(outline, {color, 2.2});
+        if (placed.beyond_horizon_radius_m) {
+          canvas_.Circle(view_.ToPixels(Eigen::Vector2d(placed.T_W_O.translation.head<2>())),
+                         *placed.beyond_horizon_radius_m * view_.px_per_m(), color.WithAlpha(0.03),
+                         {color, 1.5, 6});
+        }
+      }
+    }
+  }
+
+  void PaintRecorded() {
+    for (const TopViewOutline& outline : options_.recorded) {
+      canvas_.Outline(view_.ToPixels(outline.polygon_W), {ColorAt(outline.time), 2, 4});
+    }
+  }
+
+  void PaintPath(const TopViewPath& path) {
+    if (path.poses.empty()) return;
+    Polygon line;
+    for (const TimedPose& pose : path.poses) line.push_back(ToPixels(pose));
+    if (path.reference) {
+      canvas_.Line(line, {palette::kPaper.WithAlpha(0.7), 5});
+      canvas_.Line(line, {palette::kInk, 2, 8});
+      return;
+    }
+    PaintFootprints(path);
+    canvas_.Line(line, {palette::kPaper, 9});
+    for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
+      PaintSegment(path.poses[i], path.poses[i + 1]);
+    }
+    PaintEnd(path.poses.front(), "start");
+    PaintEnd(path.poses.back(), "goal");
+  }
+
+  // In pieces short enough for the colour to run smoothly.
+  void PaintSegment(const TimedPose& from, const TimedPose& to) {
+    const int pieces = std::clamp(static_cast<int>(ToSeconds(to.time - from.time) / 0.05), 1, 400);
+    for (int i = 0; i < pieces; ++i) {
+      const TimedPose a = Between(from, to, static_cast<double>(i) / pieces);
+      const TimedPose b = Between(from, to, (i + 1.0) / pieces);
+      canvas_.Line(std::array{ToPixels(a), ToPixels(b)}, {ColorAt(a.time), 5});
+    }
+  }
+
+  void PaintEnd(const TimedPose& pose, const std::string& name) {
+    const Eigen::Vector2d at = ToPixels(pose);
+    canvas_.Circle(at, 7, palette::kPaper, {ColorAt(pose.time), 4});
+    const std::string text =
+        absl::StrFormat("%s, %.1f s", name, ToSeconds(pose.time - scene_.stamp));
+    canvas_.Text(at + Eigen::Vector2d(16, 6), text,
+                 {.size_px = 18, .align = Align::kLeft, .bold = true, .halo_px = 5});
+  }
+
+  void PaintFootprints(const TopViewPath& path) {
+    if (options_.footprint_L.empty()) return;
+    for (const TimedPose& pose : AtSteps(path.poses)) {
+      const Polygon outline = view_.ToPixels(report::Moved(options_.footprint_L, pose.T_W_L));
+      canvas_.Fill(outline, ColorAt(pose.time).WithAlpha(0.13));
+      canvas_.Outline(outline, {ColorAt(pose.time), 2});
+    }
+  }
+
+  // The path's poses every `footprint_every`, and its last one.
+  std::vector<TimedPose> AtSteps(const std::vector<TimedPose>& poses) const {
+    std::vector<TimedPose> steps;
+    Time next = poses.front().time;
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+      const Duration span = poses[i + 1].time - poses[i].time;
+      for (; next < poses[i + 1].time; next += options_.footprint_every) {
+        steps.push_back(
+            Between(poses[i], poses[i + 1], ToSeconds(next - poses[i].time) / ToSeconds(span)));
+      }
+    }
+    steps.push_back(poses.back());
+    return steps;
+  }
+
+  static TimedPose Between(const TimedPose& from, const TimedPose& to, double fraction) {
+    return {from.time + FromSeconds(ToSeconds(to.time - from.time) * fraction),
+            Interpolate(from.T_W_L, to.T_W_L, fraction)};
+  }
+
+  Eigen::Vector2d ToPixels(const TimedPose& pose) const {
+    return view_.ToPixels(Eigen::Vector2d(pose.T_W_L.translation.head<2>()));
+  }
+
+  void PaintLabels() {
+    for (const SceneAtTime::Placed& placed : now_.objects()) {
+      const auto name = options_.names.find(placed.object->id);
+      std::string text =
+          name != options_.names.end() ? name->second : absl::StrCat(placed.object->id);
+      if (placed.object->SpeedMps() >= kMovingMps) {
+        absl::StrAppendFormat(&text, ", %.1f m/s", placed.object->SpeedMps());
+      }
+      const Eigen::Vector2d top =
+          view_.ToPixels(Eigen::Vector2d(placed.box_W.Center().x(), placed.box_W.max.y()));
+      canvas_.Text(top - Eigen::Vector2d(0, 8), text,
+                   {.size_px = 17, .align = Align::kCenter, .bold = true, .halo_px = 5});
+    }
+  }
+
+  void PaintLegend() {
+    report::Legend legend(canvas_, {options_.width_px - kMarginPx - kLegendPx, kHeaderPx},
+                          kLegendPx);
+    if (ShowsTimes()) {
+      legend.Heading("Time after now");
+      legend.TimeBar(last_s_);
+    }
+    legend.Heading("Moving objects");
+    legend.Swatch(palette::kMoving, {palette::kInk, 1.2}, "now");
+    legend.Swatch(palette::kResting, {palette::kInk, 1.2}, "labelled, at rest");
+    const Color later = report::TimeColor(0.6);
+    if (!options_.predicted_after.empty()) {
+      legend.Swatch(later.WithAlpha(0.08), {later, 2.2}, "predicted, at its time");
+    }
+    if (!options_.recorded.empty()) {
+      legend.Swatch(palette::kPaper, {later, 2, 4}, "recorded afterwards");
+    }
+    if (!options_.paths.empty()) PaintPathLegend(legend);
+    legend.Heading("Static map");
+    legend.Swatch(palette::kFree, {palette::kRule, 1.2}, "free");
+    legend.Swatch(palette::kUnknown, {palette::kRule, 1.2}, "unknown");
+    legend.Heading("Occupied, over ground");
+    legend.HeightBar(options_.max_height_m);
+  }
+
+  void PaintPathLegend(report::Legend& legend) {
+    legend.Heading("Robot");
+    for (const TopViewPath& path : options_.paths) {
+      const report::Stroke dashed{palette::kInk, 2, 8}, solid{report::TimeColor(0.4), 5};
+      legend.LineSample(path.reference ? dashed : solid, path.name);
+    }
+    if (options_.footprint_L.empty()) return;
+    const Color color = report::TimeColor(0.4);
+    legend.Swatch(color.WithAlpha(0.13), {color, 2},
+                  absl::StrFormat("footprint every %g s", ToSeconds(options_.footprint_every)));
+  }
+
+  const SceneSnapshot& scene_;
+  const TopViewOptions& options_;
+  SceneAtTime now_;
+  MapView view_;
+  Canvas canvas_;
+  double last_s_;
+};
+
+}  // namespace
+
+absl::Status WriteTopView(const SceneSnapshot& scene, const TopViewOptions& options,
+                          const std::string& png_file) {
+  return TopViewPainter(scene, options).Paint().WritePng(png_file);
+}
+
+}  // namespace clearway

@@ -1,0 +1,43 @@
+// Views of one object's voxels.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "clearway/report/object_extent.h"
+#include "report/canvas.h"
+
+namespace clearway::report {
+
+enum class ViewKind { kOblique, kTop, kSide, kFront };
+const char* NameOf(ViewKind kind);
+
+// The occupied voxels of an object as seen in parallel projection along its extent's axes. Refers
+// to the object, which must outlive it.
+class VoxelViews {
+ public:
+  explicit VoxelViews(const MovingObject& object);
+
+  const ObjectExtent& extent() const { return extent_; }
+  std::size_t voxel_count() const { return voxels_.size(); }
+
+  // What the view takes up, in metres.
+  Eigen::Vector2d SizeOf(ViewKind kind) const;
+  // Draws the view with its lower left corner at `corner`.
+  void Draw(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& corner, double px_per_m) const;
+
+ private:
+  // Rows: to the right, up and towards the viewer, in O.
+  Eigen::Matrix3d AxesOf(ViewKind kind) const;
+  void DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,
+                 double px_per_m) const;
+  void DrawHull(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,
+                double px_per_m) const;
+  Aabb BoundsOf(ViewKind kind) const;  // of the hull, in the view's axes
+
+  const MovingObject& object_;
+  ObjectExtent extent_;
+  std::vector<VoxelKey> voxels_;  // occupied
+};
+
+}  // namespace clearway::report
