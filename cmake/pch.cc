@@ -1,0 +1,1 @@
+// Exists so that the targets of the precompiled headers have a source.
