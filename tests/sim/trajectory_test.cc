@@ -52,6 +52,10 @@ TEST(TrajectoryTest, WaypointsArePassedAndHeld) {
   ExpectNear(PoseAt(dut, At(9)), Yawed(2, 0, 1));
 }
 
+TEST(TrajectoryTest, APathWithoutWaypointsStandsAtTheOrigin) {
+  EXPECT_EQ(PoseAt(WaypointPath{}, At(1)), Pose());
+}
+
 TEST(TrajectoryTest, DriveComesAndGoesStraight) {
   const Trajectory dut = Drive{.T_W_B = Yawed(5, 0, 0),
                                .start_speed_mps = 2,

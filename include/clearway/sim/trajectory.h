@@ -29,7 +29,7 @@ struct WaypointPath {
     Time time;
     Pose T_W_B;
   };
-  std::vector<Point> points = {};  // at least one; ascending times; less than half a turn apart
+  std::vector<Point> points = {};  // ascending times; less than half a turn apart
 };
 
 // Drives like a vehicle in the plane of B's x and y axes: x forward, on circular arcs, with
