@@ -41,11 +41,11 @@ World CrossingWorld() {
   world.Add(Pole("tree", -4.9, 4.57, 0.22, 4));
 
   world.Add(Car(1, Passing(1.2, kNearLaneYM, kCarHeightM, 0, 7)));
-  world.Add(Van(2, Passing(2.4, kFarLaneYM, kVanHeightM, kTowardsMinusX, 5)));
+  world.Add(Van(2, Passing(2.0, kFarLaneYM, kVanHeightM, kTowardsMinusX, 5)));
   world.Add(Hatchback(3, Yielding()));
-  world.Add(Car(4, Passing(6.5, kFarLaneYM, kCarHeightM, kTowardsMinusX, 6)));
-  world.Add(Cyclist(5, Passing(3.3, -2.75, kCyclistHeightM, 0, 4)));
-  world.Add(Pedestrian(6, Passing(2, 4.9, kPedestrianHeightM, 0, 1.3)));
+  world.Add(Car(4, Passing(5.6, kFarLaneYM, kCarHeightM, kTowardsMinusX, 6)));
+  world.Add(Cyclist(5, Passing(4.4, -2.75, kCyclistHeightM, 0, 4)));
+  world.Add(Pedestrian(6, Passing(2, 5.9, kPedestrianHeightM, 0, 1.3)));
   return world;
 }
 

@@ -134,9 +134,9 @@ void AddMovers(World& world) {
   world.Add(Car(7, Along(B, 22, 42, kOncomingM, kCarHeightM, 10, kHalfTurn)));
   world.Add(Van(8, Along(B, 29, 126, kOncomingM, kVanHeightM, 8, kHalfTurn)));
   world.Add(Car(9, Follower()));
-  world.Add(Pedestrian(10, Crossing(174.5, -6.0, 7.0, 33, 42.3)));
-  world.Add(Pedestrian(11, Crossing(176.0, 7.0, -6.0, 32.4, 41.2)));
-  world.Add(Cyclist(12, Along(B, 27, 102, -5.0, kCyclistHeightM, 4)));
+  world.Add(Pedestrian(10, Crossing(174.5, -7.2, 7.0, 33, 42.3)));
+  world.Add(Pedestrian(11, Crossing(176.0, 7.0, -7.2, 32.4, 41.2)));
+  world.Add(Cyclist(12, Along(B, 27, 102, -5.7, kCyclistHeightM, 4)));
   world.Add(Hatchback(13, OncomingRoundTheBend()));
   world.Add(Car(14, PullingOut()));
 }

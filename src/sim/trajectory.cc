@@ -28,6 +28,7 @@ Pose At(const ConstantTwist& twist, Time t) {
 }
 
 Pose At(const WaypointPath& path, Time t) {
+  if (path.points.empty()) return {};
   const auto next =
       std::upper_bound(path.points.begin(), path.points.end(), t,
                        [](Time time, const WaypointPath::Point& p) { return time < p.time; });

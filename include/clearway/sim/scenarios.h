@@ -14,16 +14,16 @@ namespace clearway {
 // Choices that every scenario offers. A plain value; default: exact, at full size.
 struct ScenarioOptions {
   std::uint64_t seed = 1;  // of all noise; the worlds do not depend on it
-  SlamNoise noise;
+  SlamNoise noise = {};
   double range_noise_m = 0;
   ObjectReport report = ObjectReport::kMotions;
   bool report_visible_only = false;
   bool keep_no_return = false;
 
-  std::optional<std::size_t> frame_count;  // default: the scenario's length
-  std::optional<int> beams;                // LiDAR: 16, 32 or 64
-  std::optional<int> azimuth_steps;        // LiDAR: rays per beam
-  std::optional<int> image_width_px;       // camera; the height is 3/4 of it
+  std::optional<std::size_t> frame_count = {};  // default: the scenario's length
+  std::optional<int> beams = {};                // LiDAR: 16, 32 or 64
+  std::optional<int> azimuth_steps = {};        // LiDAR: rays per beam
+  std::optional<int> image_width_px = {};       // camera; the height is 3/4 of it
 };
 
 // crossing: a road with traffic seen by a LiDAR at the roadside, 8 s at 10 Hz; a delivery robot has

@@ -24,7 +24,7 @@ enum class ObjectReport { kMotions, kPoses, kNothing };
 // A planning problem that a world poses. The robot is a box that stands on the ground, x forward,
 // and may move from the stamp of planning_frame on.
 struct CrossingTask {
-  std::string name;
+  std::string name = {};
   Eigen::Vector3d robot_size_m{1.0, 0.7, 1.0};
   double max_speed_mps = 2.0;
   std::size_t planning_frame = 0;  // the last frame known when the plan is made
@@ -33,22 +33,22 @@ struct CrossingTask {
   Eigen::Vector3d goal_W = Eigen::Vector3d::Zero();
   Duration time_limit = std::chrono::seconds(12);  // from the planning frame to the arrival
   ObjectId blocker = 0;  // what the straight line at full speed touches first
-  Aabb area_W;           // a suggestion of where to search
+  Aabb area_W = {};      // a suggestion of where to search
 };
 
 // Everything that decides what a simulation yields. A plain value.
 struct SimulationSpec {
-  std::string name;
-  World world;
-  RangeSensor sensor;
-  Trajectory sensor_trajectory;  // T_W_S
+  std::string name = {};
+  World world = {};
+  RangeSensor sensor = {};
+  Trajectory sensor_trajectory = {};  // T_W_S
 
   std::size_t frame_count = 1;
   Duration period = std::chrono::milliseconds(100);  // between frames; above zero
-  Time start;                                        // stamp of frame 0
+  Time start = {};                                   // stamp of frame 0
 
   std::uint64_t seed = 1;
-  SlamNoise noise;
+  SlamNoise noise = {};
   double range_noise_m = 0;  // standard deviation along the ray
 
   ObjectReport report = ObjectReport::kMotions;
@@ -58,7 +58,7 @@ struct SimulationSpec {
   bool keep_no_return = false;
 
   double resolution_m = 0.1;  // voxel size that suits the world
-  std::vector<CrossingTask> tasks;
+  std::vector<CrossingTask> tasks = {};
 };
 
 // Makes frames out of a spec. Frames are motion-compensated: every ray is cast at the frame's stamp

@@ -12,14 +12,14 @@ namespace clearway {
 
 // Stands still.
 struct FixedPose {
-  Pose T_W_B;
+  Pose T_W_B = {};
 };
 
 // A constant body velocity (rad/s and m/s in B, at B's origin), for ever: a screw.
 struct ConstantTwist {
-  Pose T_W_B;  // at `at`
-  Twist velocity_B;
-  Time at;
+  Pose T_W_B = {};  // at `at`
+  Twist velocity_B = {};
+  Time at = {};
 };
 
 // Passes through poses, along a constant screw between two of them. A stop is the same pose twice;
@@ -29,7 +29,7 @@ struct WaypointPath {
     Time time;
     Pose T_W_B;
   };
-  std::vector<Point> points;  // at least one; ascending times; less than half a turn apart
+  std::vector<Point> points = {};  // ascending times; less than half a turn apart
 };
 
 // Drives like a vehicle in the plane of B's x and y axes: x forward, on circular arcs, with
@@ -42,21 +42,21 @@ struct Drive {
     double turn_rad = 0;       // to the left over the leg, spread evenly over its length; a leg of
                                // no length turns on the spot
   };
-  Pose T_W_B;  // at `start`
+  Pose T_W_B = {};  // at `start`
   double start_speed_mps = 0;
-  std::vector<Leg> legs;
-  Time start;
+  std::vector<Leg> legs = {};
+  Time start = {};
 };
 
 // Swings about the x axis of its pivot frame P: by angle amplitude * sin(2 pi (t - at) / period),
 // with B's origin length_m below P's origin along P's z axis at angle 0. With length 0 it turns to
 // and fro.
 struct Pendulum {
-  Pose T_W_P;
+  Pose T_W_P = {};
   double length_m = 0;
   double amplitude_rad = 0;
   Duration period;  // above zero
-  Time at;
+  Time at = {};
 };
 
 using Trajectory = std::variant<FixedPose, ConstantTwist, WaypointPath, Drive, Pendulum>;

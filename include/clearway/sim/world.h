@@ -18,15 +18,15 @@ namespace clearway {
 // One shape of a body.
 struct BodyPart {
   Shape shape;
-  Pose T_B_G;  // the shape's frame G in the body's frame B
+  Pose T_B_G = {};  // the shape's frame G in the body's frame B
 };
 
 // A rigid thing of one or several shapes, all of them solid. A plain value.
 struct Body {
   ObjectId id = kStaticLabel;  // 0: part of the static world; else unique and above 0
-  std::string name;            // for people
-  std::vector<BodyPart> parts;
-  Trajectory trajectory;  // of B; bodies with id 0 must be FixedPose
+  std::string name = {};       // for people
+  std::vector<BodyPart> parts = {};
+  Trajectory trajectory = {};  // of B; bodies with id 0 must be FixedPose
 
   static Body Single(ObjectId id, std::string name, Shape shape, Trajectory trajectory);
 
