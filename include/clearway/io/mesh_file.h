@@ -1,0 +1,30 @@
+// Triangle meshes from files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "absl/status/statusor.h"
+#include "clearway/geometry/shape.h"
+
+namespace clearway {
+
+struct MeshFileOptions {
+  double scale = 1;  // of all coordinates, above 0: metres per unit of the file
+  // Turn Collada's Z_UP and X_UP files so that y points up, as the problem files of OMPL.app
+  // expect.
+  bool collada_y_up = false;
+  std::uint64_t max_bytes = 256'000'000;
+  std::size_t max_triangles = 10'000'000;
+};
+
+// Reads a .stl, .obj, .ply, .off, .dae, .gltf or .glb file by assimp. All meshes of the scene
+// become one, each placed by its nodes' transforms; polygons are cut into triangles, equal vertices
+// joined, triangles without area left out. A unit that a Collada file declares is applied (without
+// one, its numbers are metres); its up-axis is not, unless asked. NOT_FOUND; INVALID_ARGUMENT for
+// another extension, a file that assimp refuses, no triangle with an area, or a coordinate that is
+// not finite; RESOURCE_EXHAUSTED.
+absl::StatusOr<Mesh> ReadMesh(const std::filesystem::path& path,
+                              const MeshFileOptions& options = {});
+
+}  // namespace clearway

@@ -1,0 +1,176 @@
+#include "clearway/io/mesh_file.h"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+#include <system_error>
+#include <tuple>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+using Path = std::filesystem::path;
+
+// The formats whose importers are simple enough to be given files of unknown origin.
+constexpr std::array<const char*, 7> kExtensions = {".stl", ".obj",  ".ply", ".off",
+                                                    ".dae", ".gltf", ".glb"};
+constexpr int kMaxNodeDepth = 1000;
+
+absl::Status CheckFile(const Path& path, const MeshFileOptions& options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("scale is ", options.scale, "; it must be above 0"));
+  }
+  const std::string extension = absl::AsciiStrToLower(path.extension().string());
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        path.string(), ": the extension must be .stl, .obj, .ply, .off, .dae, .gltf or .glb"));
+  }
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
+  }
+  const std::uint64_t bytes = std::filesystem::file_size(path, error);
+  if (error || bytes > options.max_bytes) {
+    return absl::ResourceExhaustedError(absl::StrCat(
+        path.string(), ": ", bytes, " bytes; the limit is ", options.max_bytes, " bytes"));
+  }
+  return absl::OkStatus();
+}
+
+// Gathers the triangles of a scene. Vertices with the same coordinates become one, over all meshes:
+// assimp keeps them apart where their normals or colours differ.
+class MeshBuilder {
+ public:
+  MeshBuilder(const aiScene& scene, const MeshFileOptions& options)
+      : scene_(scene), options_(options) {}
+
+  absl::StatusOr<Mesh> Build() {
+    absl::Status status = AddNode(*scene_.mRootNode, aiMatrix4x4(), 0);
+    if (!status.ok()) return status;
+    if (mesh_.triangles.empty()) {
+      return absl::InvalidArgumentError("no triangle with an area");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  absl::Status AddNode(const aiNode& node, const aiMatrix4x4& T_root_parent, int depth) {
+    if (depth > kMaxNodeDepth) return absl::InvalidArgumentError("nodes nest too deep");
+    const aiMatrix4x4 T_root_node = T_root_parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const absl::Status status = AddMesh(*scene_.mMeshes[node.mMeshes[i]], T_root_node);
+      if (!status.ok()) return status;
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      const absl::Status status = AddNode(*node.mChildren[i], T_root_node, depth + 1);
+      if (!status.ok()) return status;
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status AddMesh(const aiMesh& part, const aiMatrix4x4& T_root_node) {
+    std::vector<Eigen::Vector3d> vertices;
+    vertices.reserve(part.mNumVertices);
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      const aiVector3D v = T_root_node * part.mVertices[i];
+      vertices.push_back(options_.scale * Eigen::Vector3d(v.x, v.y, v.z));
+      if (!vertices.back().allFinite()) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("vertex ", i, " of mesh '", part.mName.C_Str(), "' is not finite"));
+      }
+    }
+    // A reflection turns triangles inside out.
+    const bool mirrored = aiMatrix3x3(T_root_node).Determinant() < 0;
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      const aiFace& face = part.mFaces[i];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      if (std::max({face.mIndices[0], face.mIndices[1], face.mIndices[2]}) >= vertices.size()) {
+        return absl::InvalidArgumentError(absl::StrCat("face ", i, " of mesh '", part.mName.C_Str(),
+                                                       "' names a vertex that is not there"));
+      }
+      const Eigen::Vector3d& a = vertices[face.mIndices[0]];
+      const Eigen::Vector3d& b = vertices[face.mIndices[mirrored ? 2 : 1]];
+      const Eigen::Vector3d& c = vertices[face.mIndices[mirrored ? 1 : 2]];
+      AddTriangle(a, b, c);
+      if (mesh_.triangles.size() > options_.max_triangles) {
+        return absl::ResourceExhaustedError(
+            absl::StrCat("more than ", options_.max_triangles, " triangles, the limit"));
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  void AddTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    if (!(normal.norm() > 0)) return;
+    mesh_.triangles.push_back({IndexOf(a), IndexOf(b), IndexOf(c)});
+  }
+
+  std::uint32_t IndexOf(const Eigen::Vector3d& p) {
+    const auto [it, fresh] = indices_.try_emplace(
+        {p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    if (fresh) mesh_.vertices.push_back(p);
+    return it->second;
+  }
+
+  const aiScene& scene_;
+  const MeshFileOptions& options_;
+  Mesh mesh_;
+  std::map<std::tuple<double, double, double>, std::uint32_t> indices_;
+};
+
+// Assimp goes by the content where the extension's importer refuses a file; that would let in some
+// fifty formats more.
+void KeepImportersFor(const std::string& extension, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    Assimp::BaseImporter* const loader = importer.GetImporter(i);
+    std::set<std::string> extensions;
+    loader->GetExtensionList(extensions);
+    if (extensions.count(extension) > 0) continue;
+    importer.UnregisterLoader(loader);
+    delete loader;
+  }
+}
+
+absl::StatusOr<Mesh> Import(const Path& path, const MeshFileOptions& options) {
+  Assimp::Importer importer;
+  KeepImportersFor(absl::AsciiStrToLower(path.extension().string().substr(1)), importer);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, !options.collada_y_up);
+  const aiScene* const scene =
+      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    return absl::InvalidArgumentError(absl::StrCat("not readable: ", importer.GetErrorString()));
+  }
+  return MeshBuilder(*scene, options).Build();
+}
+
+}  // namespace
+
+absl::StatusOr<Mesh> ReadMesh(const Path& path, const MeshFileOptions& options) {
+  const absl::Status status = CheckFile(path, options);
+  if (!status.ok()) return status;
+  absl::StatusOr<Mesh> mesh = absl::InternalError("");
+  try {
+    mesh = Import(path, options);
+  } catch (const std::exception& error) {  // memory, and what assimp does not catch itself
+    mesh = absl::InvalidArgumentError(absl::StrCat("not readable: ", error.what()));
+  }
+  if (mesh.ok()) return mesh;
+  return absl::Status(mesh.status().code(),
+                      absl::StrCat(path.string(), ": ", std::string(mesh.status().message())));
+}
+
+}  // namespace clearway
