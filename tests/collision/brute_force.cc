@@ -199,22 +199,25 @@ struct Findings {
 struct BruteForce::Impl {
   ScenePtr scene;
   Robot robot;
+  CheckOptions options;
   std::vector<std::vector<Geometry>> links;
   std::vector<VoxelKey> keys;  // of the region
   Sizes static_voxel, object_voxel;
+  std::vector<Obstacle> static_obstacles;  // at any time
 
-  std::vector<Obstacle> StaticObstacles(const CheckOptions& options) const;
-  void AddObject(const MovingObject& object, Time time, const CheckOptions& options,
-                 std::vector<Obstacle>& obstacles) const;
-  double UnknownShare(const std::vector<Body>& bodies, const CheckOptions& options) const;
+  std::vector<Obstacle> StaticObstacles() const;
+  void AddObject(const MovingObject& object, Time time, std::vector<Obstacle>& obstacles) const;
+  double UnknownShare(const std::vector<Body>& bodies) const;
   void AddWalls(std::vector<Obstacle>& obstacles) const;
   std::vector<Body> BodiesOf(int link, const Pose* T_W_L) const;
 };
 
-BruteForce::BruteForce(ScenePtr scene, const Robot& robot, const Aabb& region_W)
+BruteForce::BruteForce(ScenePtr scene, const Robot& robot, const CheckOptions& options,
+                       const Aabb& region_W)
     : impl_(std::make_unique<Impl>()) {
   impl_->scene = scene;
   impl_->robot = robot;
+  impl_->options = options;
   for (const Link& link : robot.links) {
     auto& shapes = impl_->links.emplace_back();
     for (const LinkShape& shape : link.shapes) shapes.push_back(GeometryOf(shape.shape));
@@ -228,11 +231,13 @@ BruteForce::BruteForce(ScenePtr scene, const Robot& robot, const Aabb& region_W)
   }
   impl_->static_voxel = BoxSizes(Eigen::Vector3d::Constant(grid.resolution_m()));
   impl_->object_voxel = BoxSizes(Eigen::Vector3d::Constant(scene->params.object_resolution_m));
+  impl_->static_obstacles = impl_->StaticObstacles();
+  impl_->AddWalls(impl_->static_obstacles);
 }
 
 BruteForce::~BruteForce() = default;
 
-std::vector<Obstacle> BruteForce::Impl::StaticObstacles(const CheckOptions& options) const {
+std::vector<Obstacle> BruteForce::Impl::StaticObstacles() const {
   std::vector<Obstacle> obstacles;
   const VoxelGrid& grid = scene->static_map_W.grid();
   for (const VoxelKey& key : keys) {
@@ -259,7 +264,7 @@ std::vector<Obstacle> BruteForce::Impl::StaticObstacles(const CheckOptions& opti
   return obstacles;
 }
 
-void BruteForce::Impl::AddObject(const MovingObject& object, Time time, const CheckOptions& options,
+void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
                                  std::vector<Obstacle>& obstacles) const {
   const auto& ignored = options.ignored_objects;
   if (std::find(ignored.begin(), ignored.end(), object.id) != ignored.end()) return;
@@ -291,8 +296,7 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time, const Ch
   }
 }
 
-double BruteForce::Impl::UnknownShare(const std::vector<Body>& bodies,
-                                      const CheckOptions& options) const {
+double BruteForce::Impl::UnknownShare(const std::vector<Body>& bodies) const {
   const VoxelMap& map = scene->static_map_W;
   const auto unknown = [&](VoxelKey key) {
     return map.State(key) == VoxelState::kUnknown &&
@@ -343,25 +347,21 @@ std::vector<Body> BruteForce::Impl::BodiesOf(int link, const Pose* T_W_L) const 
   return bodies;
 }
 
-BruteAnswer BruteForce::Check(Time time, const Pose* T_W_L, const CheckOptions& options) const {
-  std::vector<Obstacle> obstacles = impl_->StaticObstacles(options);
-  for (const auto& object : impl_->scene->objects) {
-    impl_->AddObject(*object, time, options, obstacles);
-  }
-  impl_->AddWalls(obstacles);
+BruteAnswer BruteForce::Check(Time time, const Pose* T_W_L) const {
+  std::vector<Obstacle> obstacles = impl_->static_obstacles;
+  for (const auto& object : impl_->scene->objects) impl_->AddObject(*object, time, obstacles);
   Findings findings;
-  findings.nearest_m = options.clearance_up_to_m.value_or(0);
+  findings.nearest_m = impl_->options.clearance_up_to_m.value_or(0);
   std::vector<Body> all;
   for (int link = 0; link < static_cast<int>(impl_->links.size()); ++link) {
     for (const Body& body : impl_->BodiesOf(link, T_W_L)) {
       for (const Obstacle& obstacle : obstacles) {
-        findings.Look(link, body, obstacle, options);
+        findings.Look(link, body, obstacle, impl_->options);
       }
       all.push_back(body);
     }
   }
-  const double unknown_share = impl_->UnknownShare(all, options);
-  return findings.Conclude(unknown_share, options);
+  return findings.Conclude(impl_->UnknownShare(all), impl_->options);
 }
 
 }  // namespace clearway

@@ -20,10 +20,10 @@ struct BruteAnswer {
 // or bounds. Static voxels are looked at in `region_W` alone.
 class BruteForce {
  public:
-  BruteForce(ScenePtr scene, const Robot& robot, const Aabb& region_W);
+  BruteForce(ScenePtr scene, const Robot& robot, const CheckOptions& options, const Aabb& region_W);
   ~BruteForce();
 
-  BruteAnswer Check(Time time, const Pose* T_W_L, const CheckOptions& options) const;
+  BruteAnswer Check(Time time, const Pose* T_W_L) const;
 
  private:
   struct Impl;

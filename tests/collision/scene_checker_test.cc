@@ -40,15 +40,15 @@ void Compare(const StateAnswer& dut, const StateAnswer& expected, const std::str
 
 void CheckAgainstBruteForce(RandomWorld& random, const ScenePtr& scene, const Robot& robot,
                             int count, Tally& tally, const std::string& name) {
-  const Aabb region{{-4, -4, -3}, {4, 4, 3}};
+  const Aabb region{{-3.1, -3.1, -2.3}, {3.1, 3.1, 2.3}};
   const StateBatch states = random.States(robot, count);
   const CheckOptions options = random.Options(robot);
   const auto reply = SceneChecker(scene, robot).Check(states, options);
   ASSERT_TRUE(reply.ok()) << reply.status();
-  const BruteForce brute_force(scene, robot, region);
+  const BruteForce brute_force(scene, robot, options, region);
   for (int s = 0; s < count; ++s) {
     const BruteAnswer expected =
-        brute_force.Check(states.times[s], &states.T_W_L[s * robot.links.size()], options);
+        brute_force.Check(states.times[s], &states.T_W_L[s * robot.links.size()]);
     ++tally.states;
     tally.unsure += expected.unsure;
     tally.Add(expected.answer, options);
