@@ -348,15 +348,17 @@ std::vector<Body> BruteForce::Impl::BodiesOf(int link, const Pose* T_W_L) const 
 }
 
 BruteAnswer BruteForce::Check(Time time, const Pose* T_W_L) const {
-  std::vector<Obstacle> obstacles = impl_->static_obstacles;
-  for (const auto& object : impl_->scene->objects) impl_->AddObject(*object, time, obstacles);
+  std::vector<Obstacle> moving;
+  for (const auto& object : impl_->scene->objects) impl_->AddObject(*object, time, moving);
   Findings findings;
   findings.nearest_m = impl_->options.clearance_up_to_m.value_or(0);
   std::vector<Body> all;
   for (int link = 0; link < static_cast<int>(impl_->links.size()); ++link) {
     for (const Body& body : impl_->BodiesOf(link, T_W_L)) {
-      for (const Obstacle& obstacle : obstacles) {
-        findings.Look(link, body, obstacle, impl_->options);
+      for (const auto* obstacles : {&impl_->static_obstacles, &moving}) {
+        for (const Obstacle& obstacle : *obstacles) {
+          findings.Look(link, body, obstacle, impl_->options);
+        }
       }
       all.push_back(body);
     }
