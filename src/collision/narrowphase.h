@@ -44,6 +44,7 @@ class PlacedShape {
   PlacedShape(const ShapeGeometry& geometry, const Pose& T_F_G);
 
   const Aabb& box_F() const { return box_F_; }  // the smallest
+  Eigen::Vector3d Center_F() const { return R_F_G_ * geometry_->box_G().Center() + origin_F(); }
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;

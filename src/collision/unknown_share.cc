@@ -46,7 +46,7 @@ Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
 Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
                      const std::vector<const PlacedShape*>& shapes) {
   std::set<VoxelKey> keys;
-  for (const PlacedShape* shape : shapes) keys.insert(map.grid().KeyOf(shape->box_F().Center()));
+  for (const PlacedShape* shape : shapes) keys.insert(map.grid().KeyOf(shape->Center_F()));
   Count count;
   for (const VoxelKey& key : keys) {
     ++count.all;

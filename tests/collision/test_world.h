@@ -59,11 +59,18 @@ class TestWorld {
  private:
   TestWorld& Fill(const Aabb& box_W, LogOdds value) {
     VoxelMap& map = scene_.static_map_W;
-    const VoxelKey low = map.grid().KeyOf(box_W.min), high = map.grid().KeyOf(box_W.max);
-    for (std::int32_t z = low.z; z <= high.z; ++z) {
-      for (std::int32_t y = low.y; y <= high.y; ++y) {
-        for (std::int32_t x = low.x; x <= high.x; ++x) {
-          if (box_W.Contains(map.grid().CenterOf({x, y, z}))) map.Set({x, y, z}, value);
+    const BlockKey low = BlockOf(map.grid().KeyOf(box_W.min));
+    const BlockKey high = BlockOf(map.grid().KeyOf(box_W.max));
+    for (BlockKey key = low; key.z <= high.z; ++key.z) {
+      for (key.y = low.y; key.y <= high.y; ++key.y) {
+        for (key.x = low.x; key.x <= high.x; ++key.x) {
+          const VoxelBlock* before = map.blocks().Find(key);
+          VoxelBlock block = before == nullptr ? VoxelBlock{} : *before;
+          for (int i = 0; i < kVoxelsPerBlock; ++i) {
+            const Eigen::Vector3d center = map.grid().CenterOf(VoxelAt(key, i));
+            if (box_W.Contains(center)) block.Set(i, value, map.model());
+          }
+          map.PutBlock(key, block);
         }
       }
     }
