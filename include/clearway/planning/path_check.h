@@ -17,7 +17,7 @@ struct TimedPose {
 };
 
 // The path's states in their order; between two of them the robot moves at constant speed. The
-// error is StateMapping::TimeOf's.
+// error is StateMapping::Append's.
 absl::StatusOr<std::vector<TimedPose>> TimedPoses(const ompl::geometric::PathGeometric& path,
                                                   const StateMapping& mapping);
 
