@@ -6,6 +6,7 @@
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include <memory>
 #include <vector>
@@ -15,8 +16,9 @@
 
 namespace clearway {
 
-// Silences OMPL's log for the program that includes this.
+// Silences OMPL's log and seeds its random numbers for the program that includes this.
 inline const bool kOmplSilenced = (ompl::msg::noOutputHandler(), true);
+inline const bool kOmplSeeded = (ompl::RNG::setSeed(20240928), true);
 
 constexpr double kHalfTurn = 3.14159265358979323846;
 

@@ -114,7 +114,7 @@ void CompareWithScan(const ob::SpaceInformation& si) {
   const auto sampler = space->allocStateSampler();
   ob::ScopedState<> a(space), b(space), c(space), scanned(space);
   int cut = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 600; ++i) {
     do {
       sampler->sampleUniform(a.get());
       sampler->sampleUniformNear(b.get(), a.get(), 6);

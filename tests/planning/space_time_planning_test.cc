@@ -6,8 +6,8 @@
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
-#include <ompl/util/RandomNumbers.h>
 
+#include "clearway/planning/earliest_arrival.h"
 #include "clearway/planning/path_check.h"
 #include "clearway/planning/space_information.h"
 #include "clearway/planning/space_time_problem.h"
@@ -23,8 +23,6 @@ using std::chrono::seconds;
 // The fastest object moves 7 m/s * 25 ms between two checked states: with half of that as padding,
 // a plan is free at every instant.
 constexpr double kPaddingMetres = 0.0875;
-
-const bool kSeeded = (ompl::RNG::setSeed(20240928), true);
 
 // A vehicle of 5 m x 2 m along x, of discs.
 void AddVehicle(double x_m, double y_m, double speed_mps, std::vector<MovingDisc>& discs) {
@@ -158,6 +156,34 @@ TEST(SpaceTimePlanning, RrtStarPastOneVehicle) {
 TEST(SpaceTimePlanning, RrtThroughTwoLanes) {
   EXPECT_GE(SolvedRuns<og::RRT>(8, TwoLanes(), 20000), 7);
 }
+TEST(SpaceTimePlanning, RoundsArriveEarlierAndEarlier) {
+  Crossing crossing(OneVehicle());
+  const ob::State* goal_part = SpaceTimeStateSpace::SpacePart(crossing.goal.get());
+  ob::IterationTerminationCondition limit(3000);
+  const auto path = PlanEarliestArrival(std::make_shared<og::RRT>(crossing.si),
+                                        crossing.start.get(), goal_part, {}, limit);
+  ASSERT_TRUE(path.ok()) << path.status();
+  EXPECT_TRUE(CheckPath(**path, *QueryOf(*crossing.si)).free);
+  const ob::State* end = (*path)->getState((*path)->getStateCount() - 1);
+  EXPECT_GE(SpaceTimeStateSpace::SecondsOf(end), 4 - 0.1);
+  EXPECT_LE(SpaceTimeStateSpace::SecondsOf(end), 6.5);
+}
+
+TEST(SpaceTimePlanning, RoundsWithoutAPathSayWhy) {
+  Crossing crossing({});
+  const auto si =
+      MakeSpaceInformation(crossing.space,
+                           std::make_shared<FailingChecker>(absl::UnavailableError("server gone")),
+                           StateMapping::Se2(DeliveryRobot(), {}, TimeSince{Time()}), {})
+          .value();
+  ob::IterationTerminationCondition limit(100);
+  const auto path =
+      PlanEarliestArrival(std::make_shared<og::RRT>(si), crossing.start.get(),
+                          SpaceTimeStateSpace::SpacePart(crossing.goal.get()), {}, limit);
+  EXPECT_EQ(path.status().code(), absl::StatusCode::kNotFound);
+  EXPECT_NE(path.status().message().find("server gone"), std::string::npos);
+}
+
 TEST(SpaceTimePlanning, AWallOfVehiclesHasNoPlan) {
   std::vector<MovingDisc> discs;
   for (int i = 0; i < 40; ++i) AddVehicle(-5.0 * i + 10, 0, 7, discs);

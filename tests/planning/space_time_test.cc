@@ -120,14 +120,14 @@ TEST(SpaceTime, OmplsSanityChecksPass) {
 TEST(SpaceTime, FocusedSamplesCanBeVisited) {
   const auto dut = WithTime(MakeRn(2));
   const auto start = MakeState(dut, {-5, 0, 1}), goal = MakeState(dut, {5, 0, 0});
-  dut->Focus(start.get(), SpaceTimeStateSpace::SpacePart(goal.get()));
+  dut->Focus(start.get(), SpaceTimeStateSpace::SpacePart(goal.get()), 15);
   const auto sampler = dut->allocStateSampler();
   ob::ScopedState<> state(dut);
   for (int i = 0; i < 1000; ++i) {
     sampler->sampleUniform(state.get());
     EXPECT_TRUE(dut->CanReach(start.get(), state.get()));
     auto end = goal;
-    SpaceTimeStateSpace::SetSeconds(end.get(), 20);
+    SpaceTimeStateSpace::SetSeconds(end.get(), 15);
     EXPECT_TRUE(dut->CanReach(state.get(), end.get()));
   }
 }
