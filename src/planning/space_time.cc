@@ -83,7 +83,7 @@ class SpaceTimeProjection : public ob::ProjectionEvaluator {
 
 SpaceTimeStateSpace::SpaceTimeStateSpace(ob::StateSpacePtr space, SpeedLimits limits,
                                          Duration latest, double time_weight)
-    : limits_(limits) {
+    : limits_(limits), focus_latest_s_(ToSeconds(latest)) {
   setName("SpaceTime" + getName());
   addSubspace(std::move(space), 1 - time_weight);
   auto time = std::make_shared<ob::TimeStateSpace>();
@@ -132,21 +132,18 @@ double SpaceTimeStateSpace::distance(const ob::State* from, const ob::State* to)
          weights_[1] * std::abs(SecondsOf(to) - SecondsOf(from));
 }
 
-void SpaceTimeStateSpace::Focus(const ob::State* start, const ob::State* goal_part) {
-  const auto owned = [this](const ob::State* part) {
-    return OwnedState(part == nullptr ? nullptr : space()->cloneState(part), {space()});
-  };
-  focus_start_s_ = start == nullptr ? 0 : SecondsOf(start);
-  focus_start_part_ = owned(start == nullptr ? nullptr : SpacePart(start));
-  focus_goal_part_ = owned(goal_part);
+void SpaceTimeStateSpace::Focus(const ob::State* start, const ob::State* goal_part,
+                                double latest_s) {
+  focus_start_s_ = SecondsOf(start);
+  focus_latest_s_ = latest_s;
+  focus_start_part_ = OwnedState(space()->cloneState(SpacePart(start)), {space()});
+  focus_goal_part_ = OwnedState(space()->cloneState(goal_part), {space()});
 }
 
 std::pair<double, double> SpaceTimeStateSpace::VisitableSeconds(const ob::State* part) const {
-  double earliest_s = focus_start_s_;
-  double last_s = latest_s();
-  if (focus_start_part_) earliest_s += MinSeconds(focus_start_part_.get(), part);
-  if (focus_goal_part_) last_s -= MinSeconds(part, focus_goal_part_.get());
-  return {earliest_s, last_s};
+  if (focus_start_part_ == nullptr) return {0, latest_s()};
+  return {focus_start_s_ + MinSeconds(focus_start_part_.get(), part),
+          focus_latest_s_ - MinSeconds(part, focus_goal_part_.get())};
 }
 
 ob::StateSamplerPtr SpaceTimeStateSpace::allocDefaultStateSampler() const {

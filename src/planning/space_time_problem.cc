@@ -61,7 +61,7 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
     return absl::InvalidArgumentError(absl::StrCat("goal_part: reached at full speed at ",
                                                    arrival_s, " s, the limit is ", latest_s, " s"));
   }
-  space_time->Focus(start, goal_part);
+  space_time->Focus(start, goal_part, latest_s);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);
   problem->addStartState(start);
   problem->setGoal(std::make_shared<GoalPoseBefore>(si, start, goal_part, options));

@@ -48,6 +48,10 @@ std::function<double(double, double)> LinkHeight(const Robot& robot, Ground grou
 
 void SetAll(std::span<Pose> T_W_L, const Pose& pose) { std::ranges::fill(T_W_L, pose); }
 
+bool IsFinite(const Pose& pose) {
+  return pose.translation.allFinite() && pose.rotation.coeffs().allFinite();
+}
+
 double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 
 double AngleBetween(double yaw_a, double yaw_b) {
@@ -180,10 +184,15 @@ absl::StatusOr<Time> StateMapping::TimeOf(const ob::State* state) const {
 absl::Status StateMapping::Append(const ob::State* state, StateBatch& batch) const {
   const absl::StatusOr<Time> time = TimeOf(state);
   if (!time.ok()) return time.status();
-  batch.times.push_back(*time);
-  batch.T_W_L.resize(batch.T_W_L.size() + links_);
-  const std::span<Pose> links = std::span(batch.T_W_L).last(links_);
+  const std::size_t old_size = batch.T_W_L.size();
+  batch.T_W_L.resize(old_size + links_);
+  const std::span<Pose> links = std::span(batch.T_W_L).subspan(old_size);
   (*kinematics_)(has_time() ? SpaceTimeStateSpace::SpacePart(state) : state, links);
+  if (!std::ranges::all_of(links, IsFinite)) {
+    batch.T_W_L.resize(old_size);
+    return absl::InvalidArgumentError("state: the pose of a link is not finite");
+  }
+  batch.times.push_back(*time);
   return absl::OkStatus();
 }
 

@@ -7,17 +7,13 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "clearway/geometry/timed_pose.h"
 #include "clearway/planning/state_query.h"
 
 namespace clearway {
 
-struct TimedPose {
-  Time time;
-  Pose T_W_L;  // of the robot's first link
-};
-
-// The path's states in their order; between two of them the robot moves at constant speed. The
-// error is StateMapping::TimeOf's.
+// The poses of the robot's first link at the path's states, in their order; between two of them the
+// robot moves at constant speed. The error is StateMapping::Append's.
 absl::StatusOr<std::vector<TimedPose>> TimedPoses(const ompl::geometric::PathGeometric& path,
                                                   const StateMapping& mapping);
 

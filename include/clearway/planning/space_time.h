@@ -53,9 +53,9 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   // reaches itself.
   bool CanReach(const ompl::base::State* from, const ompl::base::State* to) const;
 
-  // Restricts uniform samples to what can be reached from `start` and, if given, can still reach
-  // the pose `goal_part` in time. Copies both; null removes the restriction.
-  void Focus(const ompl::base::State* start, const ompl::base::State* goal_part);
+  // Restricts uniform samples to what can be reached from `start` and can still reach the pose
+  // `goal_part` by `latest_s`. Copies both states.
+  void Focus(const ompl::base::State* start, const ompl::base::State* goal_part, double latest_s);
   // The interval of times at which a state of space() can be visited under Focus; empty (first >
   // second) if at none.
   std::pair<double, double> VisitableSeconds(const ompl::base::State* part) const;
@@ -86,6 +86,7 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
 
   SpeedLimits limits_;
   double focus_start_s_ = 0;
+  double focus_latest_s_;
   OwnedState focus_start_part_;
   OwnedState focus_goal_part_;
 };

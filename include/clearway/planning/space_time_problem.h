@@ -18,7 +18,7 @@ struct GoalOptions {
   // Distance, as the space without time measures it, that counts as arrived.
   double tolerance = 0.1;
   // Arrival at this time of the space at the latest; none: at the space's own latest.
-  std::optional<Duration> latest;
+  std::optional<Duration> latest = std::nullopt;
 };
 
 // A pose to be reached at any time from the earliest possible up to the latest allowed; goal states

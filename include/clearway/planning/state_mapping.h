@@ -69,7 +69,8 @@ class StateMapping {
   bool has_time() const { return std::holds_alternative<TimeSince>(time_); }
   // INVALID_ARGUMENT if the state's time is not finite or does not fit into Time.
   absl::StatusOr<Time> TimeOf(const ompl::base::State* state) const;
-  // Appends one state to the batch; the error is TimeOf's, and the batch is then as before.
+  // Appends one state to the batch. INVALID_ARGUMENT if its time or a link's pose is not finite;
+  // the batch is then as before.
   absl::Status Append(const ompl::base::State* state, StateBatch& batch) const;
   // The MotionBound for two states of the whole space; none if there is no bound.
   std::optional<double> MotionBoundMetres(const ompl::base::State* from,
