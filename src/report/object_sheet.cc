@@ -57,9 +57,8 @@ Row RowOf(const MovingObject& object, double width_px) {
 
 // 12345 -> "12,345".
 std::string Grouped(std::size_t number) {
-  std::string text = absl::StrCat(number);
-  for (std::ptrdiff_t i = std::ssize(text) - 3; i > 0; i -= 3) text.insert(i, ",");
-  return text;
+  if (number < 1000) return absl::StrCat(number);
+  return absl::StrCat(Grouped(number / 1000), " ", absl::Dec(number % 1000, absl::kZeroPad3));
 }
 
 std::string CaptionOf(const Row& row) {

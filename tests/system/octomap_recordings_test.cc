@@ -6,7 +6,9 @@
 #include <iostream>
 
 #include "clearway/io/lidar_folder.h"
+#include "clearway/io/point_cloud_file.h"
 #include "clearway/scene/scene_builder.h"
+#include "support/bzip2.h"
 #include "support/data_folder.h"
 #include "support/octomap_oracle.h"
 
@@ -69,6 +71,28 @@ struct Case {
   std::size_t step;
   RayOptions rays;
 };
+// Applies the frames to ours and OctoMap's, and compares.
+void ExpectSameStaticMap(const std::vector<Frame>& frames, double resolution_m,
+                         const RayOptions& rays) {
+  SceneParams params;
+  params.resolution_m = resolution_m;
+  params.rays = rays;
+  ThreadPool pool(2);
+  SceneBuilder dut(params, {}, pool);
+  OctomapStaticMap oracle(resolution_m, rays);
+  for (const Frame& frame : frames) {
+    ASSERT_TRUE(dut.Apply(frame).ok());
+    oracle.Insert(frame);
+  }
+  const auto comparison = testing_support::Compare(dut.Publish()->static_map_W, oracle.tree());
+  std::cout << comparison.voxels << " voxels, " << comparison.state_differences
+            << " states differ, log-odds differ by at most " << comparison.largest_log_odds_error
+            << "; " << oracle.objects_only() << " end voxels of objects alone\n";
+  EXPECT_GT(comparison.voxels, 50'000);
+  EXPECT_EQ(comparison.state_differences, 0);
+  EXPECT_LT(comparison.largest_log_odds_error, 0.01);
+}
+
 class OctomapRecordingsTest : public testing::TestWithParam<Case> {};
 
 TEST_P(OctomapRecordingsTest, SameStaticMap) {
@@ -76,24 +100,13 @@ TEST_P(OctomapRecordingsTest, SameStaticMap) {
   if (!data) return;
   const auto folder = OpenLidarFolder(*data / GetParam().folder);
   ASSERT_TRUE(folder.ok()) << folder.status();
-  SceneParams params;
-  params.rays = GetParam().rays;
-  ThreadPool pool(2);
-  SceneBuilder dut(params, {}, pool);
-  OctomapStaticMap oracle(params.resolution_m, params.rays);
+  std::vector<Frame> frames;
   for (std::size_t k : FramesOf(folder->frames, GetParam().step)) {
     const auto frame = folder->frames.read(k);
     ASSERT_TRUE(frame.ok()) << frame.status();
-    ASSERT_TRUE(dut.Apply(*frame).ok());
-    oracle.Insert(*frame);
+    frames.push_back(*frame);
   }
-  const auto comparison = testing_support::Compare(dut.Publish()->static_map_W, oracle.tree());
-  std::cout << comparison.voxels << " voxels, " << comparison.state_differences
-            << " states differ, log-odds differ by at most " << comparison.largest_log_odds_error
-            << "; " << oracle.objects_only() << " end voxels of objects alone\n";
-  EXPECT_GT(comparison.voxels, 100'000);
-  EXPECT_EQ(comparison.state_differences, 0);
-  EXPECT_LT(comparison.largest_log_odds_error, 0.01);
+  ExpectSameStaticMap(frames, 0.1, GetParam().rays);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, OctomapRecordingsTest,
@@ -104,6 +117,44 @@ INSTANTIATE_TEST_SUITE_P(Drives, OctomapRecordingsTest,
                                          Case{"kitti0000_fov", 40, {-1, false}},
                                          Case{"kitti0000_fov", 40, {-1, true}}),
                          [](const auto& drive) { return "Drive" + std::to_string(drive.index); });
+
+class OctomapScansTest : public testing::TestWithParam<bool> {
+ protected:
+  // Each cloud as a frame of static points.
+  static std::vector<Frame> Frames(const std::vector<PosedCloud>& clouds) {
+    std::vector<Frame> frames;
+    for (const PosedCloud& cloud : clouds) {
+      Frame frame;
+      frame.stamp = TimeFromNanoseconds(static_cast<std::int64_t>(frames.size()));
+      frame.T_W_S = cloud.T_W_S;
+      frame.points_S = cloud.points_S;
+      frame.labels.assign(cloud.points_S.size(), kStaticLabel);
+      frames.push_back(std::move(frame));
+    }
+    return frames;
+  }
+};
+
+TEST_P(OctomapScansTest, TheScanGraph) {
+  const auto path = DataPath("octomap/spherical_scan.graph");
+  if (!path) return;
+  const auto clouds = ReadPointClouds(*path);
+  ASSERT_TRUE(clouds.ok()) << clouds.status();
+  ExpectSameStaticMap(Frames(*clouds), 0.02, {-1, GetParam()});
+}
+
+TEST_P(OctomapScansTest, TheScan) {
+  const auto path = DataPath("octomap/scan.dat.bz2");
+  if (!path) return;
+  const auto text = Bunzip2(*path);
+  ASSERT_TRUE(text.has_value());
+  const auto cloud = ParseTextCloud("scan.dat", *text);
+  ASSERT_TRUE(cloud.ok()) << cloud.status();
+  ExpectSameStaticMap(Frames({*cloud}), 0.05, {-1, GetParam()});
+}
+
+INSTANTIATE_TEST_SUITE_P(BothRayModes, OctomapScansTest, testing::Bool(),
+                         [](const auto& mode) { return mode.param ? "Discretized" : "EveryRay"; });
 
 }  // namespace
 }  // namespace clearway
