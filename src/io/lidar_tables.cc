@@ -56,6 +56,50 @@ absl::StatusOr<Pose> ReadPose(const CsvTable& table, std::size_t row, const Pose
   return Pose::FromMatrix(matrix);
 }
 
+// Where the columns of a table of boxes are.
+struct BoxColumns {
+  std::vector<std::size_t> fields;  // frame, track, type, l, w, h, n_points
+  PoseColumns pose;
+};
+
+absl::StatusOr<BoxColumns> FindBoxColumns(const CsvTable& table) {
+  const auto fields = FindColumns(table, {"frame", "track", "type", "l", "w", "h", "n_points"});
+  if (!fields.ok()) return fields.status();
+  const auto pose = FindPoseColumns(table);
+  if (!pose.ok()) return pose.status();
+  return BoxColumns{*fields, *pose};
+}
+
+absl::StatusOr<RecordedBox> ReadBox(const CsvTable& table, std::size_t row,
+                                    const BoxColumns& columns) {
+  constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
+  CsvRow reader(table, row);
+  RecordedBox box;
+  box.frame = static_cast<int>(reader.Integer(columns.fields[0], 0, kMaxFrame));
+  box.id = static_cast<ObjectId>(reader.Integer(columns.fields[1], 1, kMaxId));
+  box.type = reader.Text(columns.fields[2]);
+  for (int i = 0; i < 3; ++i) box.size_m[i] = reader.Number(columns.fields[3 + i]);
+  box.n_points = static_cast<int>(reader.Integer(columns.fields[6], 0, kMaxId));
+  if (!reader.status().ok()) return reader.status();
+  if ((box.size_m.array() <= 0).any()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(table.Where(row), ", columns l, w, h: a box of ", box.size_m.x(), " x ",
+                     box.size_m.y(), " x ", box.size_m.z(), " m; each length must be above 0"));
+  }
+  const absl::StatusOr<Pose> T_W_B = ReadPose(table, row, columns.pose);
+  if (!T_W_B.ok()) return T_W_B.status();
+  box.T_W_B = *T_W_B;
+  return box;
+}
+
+bool HasFrame(const std::vector<RecordedPose>& poses, int frame) {
+  const auto it = std::partition_point(poses.begin(), poses.end(),
+                                       [&](const auto& pose) { return pose.frame < frame; });
+  return it != poses.end() && it->frame == frame;
+}
+
+auto KeyOf(const RecordedBox& box) { return std::tie(box.frame, box.id); }
+
 }  // namespace
 
 absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path) {
@@ -98,44 +142,24 @@ absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::p
                                                         const std::vector<RecordedPose>& poses) {
   const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
   if (!table.ok()) return table.status();
-  const auto columns = FindColumns(*table, {"frame", "track", "type", "l", "w", "h", "n_points"});
+  const absl::StatusOr<BoxColumns> columns = FindBoxColumns(*table);
   if (!columns.ok()) return columns.status();
-  const auto pose_columns = FindPoseColumns(*table);
-  if (!pose_columns.ok()) return pose_columns.status();
-
-  constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
   std::vector<RecordedBox> boxes;
   for (std::size_t row = 0; row < table->rows(); ++row) {
-    CsvRow reader(*table, row);
-    RecordedBox box;
-    box.frame = static_cast<int>(reader.Integer((*columns)[0], 0, kMaxFrame));
-    box.id = static_cast<ObjectId>(reader.Integer((*columns)[1], 1, kMaxId));
-    box.type = reader.Text((*columns)[2]);
-    for (int i = 0; i < 3; ++i) box.size_m[i] = reader.Number((*columns)[3 + i]);
-    box.n_points = static_cast<int>(reader.Integer((*columns)[6], 0, kMaxId));
-    if (!reader.status().ok()) return reader.status();
-    if ((box.size_m.array() <= 0).any()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(table->Where(row), ", columns l, w, h: a box of ", box.size_m.x(), " x ",
-                       box.size_m.y(), " x ", box.size_m.z(), " m; each length must be above 0"));
+    absl::StatusOr<RecordedBox> box = ReadBox(*table, row, *columns);
+    if (!box.ok()) return box.status();
+    if (!HasFrame(poses, box->frame)) {
+      return absl::InvalidArgumentError(absl::StrCat(table->Where(row, columns->fields[0]),
+                                                     ": frame ", box->frame,
+                                                     " has no pose of the sensor"));
     }
-    if (!std::binary_search(poses.begin(), poses.end(), RecordedPose{box.frame, {}, {}},
-                            [](const auto& a, const auto& b) { return a.frame < b.frame; })) {
-      return absl::InvalidArgumentError(absl::StrCat(table->Where(row, (*columns)[0]), ": frame ",
-                                                     box.frame, " has no pose of the sensor"));
-    }
-    const absl::StatusOr<Pose> T_W_B = ReadPose(*table, row, *pose_columns);
-    if (!T_W_B.ok()) return T_W_B.status();
-    box.T_W_B = *T_W_B;
-    boxes.push_back(std::move(box));
+    boxes.push_back(*std::move(box));
   }
-
-  const auto key = [](const RecordedBox& box) { return std::tie(box.frame, box.id); };
   std::stable_sort(boxes.begin(), boxes.end(),
-                   [&](const RecordedBox& a, const RecordedBox& b) { return key(a) < key(b); });
-  const auto twice = std::adjacent_find(
-      boxes.begin(), boxes.end(),
-      [&](const RecordedBox& a, const RecordedBox& b) { return key(a) == key(b); });
+                   [](const auto& a, const auto& b) { return KeyOf(a) < KeyOf(b); });
+  const auto twice =
+      std::adjacent_find(boxes.begin(), boxes.end(),
+                         [](const auto& a, const auto& b) { return KeyOf(a) == KeyOf(b); });
   if (twice != boxes.end()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", twice->frame,
                                                    " has two boxes of track ", twice->id));

@@ -1,0 +1,92 @@
+#include <cstring>
+#include <limits>
+
+#include "io/octomap_example.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(OctomapFile, RefusesVoxelsThatOctomapCannotAddress) {
+  VoxelMap map(0.1);
+  map.Set({32767, -32768, 0}, 100);
+  EXPECT_TRUE(SerializeOctomap(map, OctomapFormat::kFull).ok());
+  map.Set({0, 32768, 0}, 100);
+  const auto bytes = SerializeOctomap(map, OctomapFormat::kFull);
+  EXPECT_EQ(bytes.status().code(), absl::StatusCode::kOutOfRange);
+  EXPECT_THAT(std::string(bytes.status().message()),
+              AllOf(HasSubstr("32768"), HasSubstr("-32768 to 32767"), HasSubstr("3276.8 m")));
+}
+
+TEST(OctomapFile, RefusesFilesCutOffAtAnyByte) {
+  VoxelMap map(0.1);
+  for (int i = 0; i < 40; ++i) map.Set({i, i * i % 7, i / 3}, static_cast<LogOdds>(100 * i - 900));
+  for (const OctomapFormat format : {OctomapFormat::kBinary, OctomapFormat::kFull}) {
+    const std::string whole = Serialized(map, format);
+    ASSERT_TRUE(ParseOctomap("m", whole).ok());
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const auto dut = ParseOctomap("m", whole.substr(0, size));
+      EXPECT_EQ(dut.status().code(), absl::StatusCode::kInvalidArgument) << size;
+    }
+    EXPECT_THAT(ErrorOf(whole + "x"), HasSubstr("1 bytes follow the end of the tree"));
+  }
+}
+
+TEST(OctomapFile, SurvivesAnyDamagedByte) {
+  OctomapLimits limits;
+  limits.max_voxels = 1 << 24;  // a damaged bit can make a leaf of half the world
+  const std::string whole = Serialized(ExampleMap(), OctomapFormat::kFull);
+  std::mt19937 random(5);
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = whole;
+    damaged[random() % (i % 2 == 0 ? 200 : whole.size())] ^= static_cast<char>(1 << random() % 8);
+    const auto dut = ParseOctomap("m", damaged, {}, limits);
+    EXPECT_TRUE(dut.ok() || !dut.status().message().empty());
+  }
+}
+
+TEST(OctomapFile, RefusesBadHeadersNamingTheLine) {
+  EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\n"), HasSubstr("m.bt, line 1: does not start with"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid Tree\nsize 1\nres 1\ndata\n"),
+              HasSubstr("line 5: id is none of"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize x\nres 1\ndata\n"),
+              HasSubstr("line 3: size"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nres 1\ndata\n"),
+              HasSubstr("no size"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize 1\nres -1\ndata\n"),
+              HasSubstr("res is missing or not above 0"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize 1\nres nan\ndata\n"),
+              HasSubstr("res is missing or not above 0"));
+  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nsomething else\ndata\n"),
+              HasSubstr("line 2: none of id, size, res, data"));
+}
+
+TEST(OctomapFile, RefusesTreesThatOctomapWouldReadBeyondBounds) {
+  EXPECT_THAT(ErrorOf(kHeader + std::string(100000, '\xff')),
+              HasSubstr("nodes nest deeper than 16 levels"));
+  EXPECT_THAT(ErrorOf(kHeader + std::string(2, '\0')), HasSubstr("an inner node without children"));
+  std::string full = "# Octomap OcTree file\nid OcTree\nsize 1\nres 0.1\ndata\n";
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  full.append(reinterpret_cast<const char*>(&nan), 4).push_back('\0');
+  EXPECT_THAT(ErrorOf(full), HasSubstr("log-odds that are not a number"));
+}
+
+TEST(OctomapFile, RefusesAWrongNumberOfNodes) {
+  VoxelMap map(0.1);
+  map.Set({0, 0, 0}, 0);
+  std::string bytes = Serialized(map, OctomapFormat::kBinary);
+  ASSERT_THAT(bytes, HasSubstr("size 17\n"));
+  bytes.replace(bytes.find("size 17"), 7, "size 18");
+  EXPECT_THAT(ErrorOf(bytes), HasSubstr("17 nodes; the header says 18"));
+}
+
+TEST(OctomapFile, RefusesATreeThatExpandsBeyondTheLimit) {
+  const std::string bytes = kHeader + std::string("\x01\x00", 2);  // an eighth of all space
+  const auto dut = ParseOctomap("m.bt", bytes);
+  EXPECT_EQ(dut.status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(std::string(dut.status().message()), HasSubstr("more than 536870912 voxels"));
+}
+
+}  // namespace
+}  // namespace clearway
