@@ -79,6 +79,7 @@ TYPED_TEST_P(CheckerSuite, InflationGrowsWithTheTimeSinceAnObjectWasPlaced) {
   ExpectAnswer(this->Ask(*dut, At(-0.54, 0, 0, 1), options), SpaceStatus::kOccupied, 0, 1);
   ExpectAnswer(this->Ask(*dut, At(-0.56, 0, 0, 1), options), SpaceStatus::kFree, -1, 0);
   ExpectAnswer(this->Ask(*dut, At(-0.36, 0, 0, -5), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.34, 0, 0, -5), options), SpaceStatus::kOccupied, 0, 1);
 }
 
 TYPED_TEST_P(CheckerSuite, IgnoredObjectsAreNotThere) {
