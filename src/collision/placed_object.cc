@@ -53,6 +53,14 @@ std::vector<PlacedObject> PlaceObjects(const SceneSnapshot& scene, const ObjectH
   return placed;
 }
 
+bool Touches(const PlacedObject& placed, const PlacedShape& shape_W, double padding_m) {
+  if (placed.ball_radius_m || placed.hull != nullptr) {
+    return DistanceTo(placed, shape_W, padding_m) <= padding_m;
+  }
+  return TouchesOccupied(placed.object->map_O, shape_W.In(placed.T_O_W),
+                         padding_m + placed.margin_m);
+}
+
 double DistanceTo(const PlacedObject& placed, const PlacedShape& shape_W, double up_to_m) {
   const double search_m = up_to_m + placed.margin_m;
   double distance_m = 0;

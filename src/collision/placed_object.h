@@ -31,6 +31,9 @@ struct PlacedObject {
 std::vector<PlacedObject> PlaceObjects(const SceneSnapshot& scene, const ObjectHulls& hulls, Time t,
                                        const CheckOptions& options);
 
+// Whether the shape (placed in W) is within padding_m of the object, the object's margin included.
+bool Touches(const PlacedObject& object, const PlacedShape& shape_W, double padding_m);
+
 // Distance in metres from the shape (placed in W) to the object, less the object's margin; 0 in
 // contact, above up_to_m if farther than that.
 double DistanceTo(const PlacedObject& object, const PlacedShape& shape_W, double up_to_m);

@@ -10,7 +10,7 @@
 namespace clearway {
 namespace {
 
-constexpr double kMaxSize_m = 1e4;
+constexpr double kMaxSize_m = 100;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, " ", what));

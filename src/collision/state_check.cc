@@ -99,12 +99,10 @@ std::optional<StateCheck::Touch> StateCheck::BeyondHorizon() const {
 std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
   if (context_.options.unknown != UnknownPolicy::kBlocked) return std::nullopt;
   const VoxelMap& map = context_.scene.static_map_W;
-  const auto counts = [&](VoxelKey key) {
-    return !InOneOf(context_.options.known_free_W, map.grid().CenterOf(key));
-  };
+  const double padding_m = context_.options.padding_m;
   for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
     for (const PlacedShape& shape : links_W_[link]) {
-      if (TouchesVoxels<UnobservedVoxels>(map, shape, context_.options.padding_m, counts)) {
+      if (DistanceToUnobserved(map, shape, context_.options.known_free_W, padding_m) <= padding_m) {
         return Touch{link, kStaticLabel};
       }
     }
@@ -152,10 +150,7 @@ bool StateCheck::TouchesStatic(int link) const {
     for (const Aabb& box_W : context_.scene.params.keep_out_W) {
       if (shape.DistanceTo(box_W, padding_m) <= padding_m) return true;
     }
-    if (TouchesVoxels<OccupiedVoxels>(context_.scene.static_map_W, shape, padding_m,
-                                      [](VoxelKey) { return true; })) {
-      return true;
-    }
+    if (TouchesOccupied(context_.scene.static_map_W, shape, padding_m)) return true;
   }
   return false;
 }
@@ -165,7 +160,7 @@ bool StateCheck::TouchesObject(int link, const PlacedObject& object) const {
   const double padding_m = context_.options.padding_m;
   for (const PlacedShape& shape : links_W_[link]) {
     if (!shape.box_F().Padded(padding_m).Intersects(object.box_W)) continue;
-    if (DistanceTo(object, shape, padding_m) <= padding_m) return true;
+    if (Touches(object, shape, padding_m)) return true;
   }
   return false;
 }

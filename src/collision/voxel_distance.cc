@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "collision/closed_form.h"
+#include "collision/voxel_search.h"
 
 namespace clearway {
 namespace {
@@ -57,6 +58,14 @@ bool WithinOneOf(const std::vector<Aabb>& boxes, const Aabb& inner) {
 }
 
 }  // namespace
+
+bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margin_m) {
+  KeyRange keys;
+  if (!KeysTouching(map.grid(), shape.box_F().Padded(margin_m), keys)) return false;
+  return AnyVoxel<OccupiedVoxels>(map, keys, [&](VoxelKey key) {
+    return shape.DistanceTo(map.grid().BoxOf(key), margin_m) <= margin_m;
+  });
+}
 
 // Blocks in the order of their distance, until the next one is farther than what was found.
 double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m) {

@@ -31,7 +31,7 @@ struct Robot {
 };
 
 // INVALID_ARGUMENT naming the field: no links, a link without shapes, sizes that are not positive
-// or above 10 km, meshes that are empty or whose indices are out of range, hulls that have no
+// or above 100 m, meshes that are empty or whose indices are out of range, hulls that have no
 // volume, are not convex or face inward, poses that are not rigid.
 absl::Status Validate(const Robot& robot);
 

@@ -1,0 +1,138 @@
+// The part of CheckerSuite on moving objects and what is reported of several contacts.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "collision/checker_fixture.h"
+
+namespace clearway {
+
+TYPED_TEST_P(CheckerSuite, ObjectsAreWhereTheyWillBe) {
+  const Twist forward{Eigen::Vector3d::Zero(), {0.5, 0, 0}};
+  const auto dut = this->Make(this->Room().Object(3, VoxelCuboid({-2, -2, -2}, {2, 2, 2}),
+                                                  Pose::Translation(-3, 0, 0), forward),
+                              this->Ball());
+  ExpectAnswer(this->Ask(*dut, At(-3, 0, 0, 0)), SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-3, 0, 0, 2)), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-2, 0, 0, 2)), SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-2, 0, 0, 0)), SpaceStatus::kFree, -1, 0);
+}
+
+TYPED_TEST_P(CheckerSuite, ObjectsAreWhereTheyWere) {
+  const std::vector<StampedPose> history = {{TestTime(-2), Pose::Translation(-2, 0, 0)},
+                                            {TestTime(0), Pose{}}};
+  const auto dut = this->Make(this->Room().Object(3, VoxelCuboid({-2, -2, -2}, {2, 2, 2}), history),
+                              this->Ball());
+  ExpectAnswer(this->Ask(*dut, At(-1, 0, 0, -1)), SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-1, 0, 0, 0)), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-2, 0, 0, -9)), SpaceStatus::kOccupied, 0, 3);
+}
+
+TYPED_TEST_P(CheckerSuite, BeyondTheHorizonAllThatIsInReachBlocks) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(1);
+  const Twist forward{Eigen::Vector3d::Zero(), {1, 0, 0}};
+  // At the horizon's end at x = -2; a second later the ball's radius is that of the solid and 1 m.
+  const auto dut = this->Make(this->Room(params).Object(5, VoxelCuboid({-1, -1, -1}, {1, 1, 1}),
+                                                        Pose::Translation(-3, 0, 0), forward),
+                              this->Ball());
+  const double reach_m = 1 + 0.1 * std::sqrt(3) + 0.25;
+  ExpectAnswer(this->Ask(*dut, At(-2, 0, 0, 2)), SpaceStatus::kBeyondHorizon, 0, 5);
+  ExpectAnswer(this->Ask(*dut, At(-2 + reach_m - 0.01, 0, 0, 2)), SpaceStatus::kBeyondHorizon, 0,
+               5);
+  ExpectAnswer(this->Ask(*dut, At(-2 + reach_m + 0.01, 0, 0, 2)), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-2 + reach_m - 0.01, 0, 0, 1)), SpaceStatus::kFree, -1, 0);
+}
+
+TYPED_TEST_P(CheckerSuite, OccupiedComesBeforeBeyondHorizonBeforeUnknown) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(0);
+  const Twist forward{Eigen::Vector3d::Zero(), {1, 0, 0}};
+  const TestWorld world = TestWorld(params)
+                              .Occupied({{1, -1, -1}, {1.1, 1, 1}})
+                              .Object(5, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{}, forward);
+  const auto dut = this->Make(world, this->Ball());
+  ExpectAnswer(this->Ask(*dut, At(1, 0, 0, 2)), SpaceStatus::kOccupied, 0, 0);
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0, 2)), SpaceStatus::kBeyondHorizon, 0, 5);
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 3, 2)), SpaceStatus::kUnknownSpace, 0, 0);
+}
+
+TYPED_TEST_P(CheckerSuite, TheInsideOfAnObjectIsItsHullOrItsVoxelsAlone) {
+  std::vector<VoxelKey> two_walls = VoxelCuboid({-8, -8, -8}, {-7, 8, 8});
+  for (const VoxelKey& key : VoxelCuboid({7, -8, -8}, {8, 8, 8})) two_walls.push_back(key);
+  SceneParams params;
+  const auto hull = this->Make(this->Room(params).Object(1, two_walls, Pose{}), this->Ball());
+  ExpectAnswer(this->Ask(*hull, At(0, 0, 0)), SpaceStatus::kOccupied, 0, 1);
+  params.solid = SolidMode::kVoxels;
+  const auto voxels = this->Make(this->Room(params).Object(1, two_walls, Pose{}), this->Ball());
+  ExpectAnswer(this->Ask(*voxels, At(0, 0, 0)), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*voxels, At(0.5, 0, 0)), SpaceStatus::kOccupied, 0, 1);
+}
+
+TYPED_TEST_P(CheckerSuite, InflationGrowsWithTheTimeSinceAnObjectWasPlaced) {
+  const auto dut = this->Make(this->Room().Object(1, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{}),
+                              this->Ball());
+  CheckOptions options;
+  options.inflation_mps = 0.2;
+  ExpectAnswer(this->Ask(*dut, At(-0.36, 0, 0, 0), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.54, 0, 0, 1), options), SpaceStatus::kOccupied, 0, 1);
+  ExpectAnswer(this->Ask(*dut, At(-0.56, 0, 0, 1), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.36, 0, 0, -5), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.34, 0, 0, -5), options), SpaceStatus::kOccupied, 0, 1);
+}
+
+TYPED_TEST_P(CheckerSuite, IgnoredObjectsAreNotThere) {
+  const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
+  const auto dut =
+      this->Make(this->Room().Object(1, cube, Pose{}).Object(2, cube, Pose{}), this->Ball());
+  CheckOptions options;
+  options.ignored_objects = {1, 99};
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kOccupied, 0, 2);
+  options.ignored_objects = {2, 1};
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kFree, -1, 0);
+}
+
+TYPED_TEST_P(CheckerSuite, AllowedContactsHoldForTheirLinkAlone) {
+  const auto dut = this->Make(this->Room().Object(4, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{}),
+                              this->TwoBalls());
+  const StateBatch both_in_object{{kTestStart}, {Pose{}, Pose{}}};
+  const StateBatch first_in_wall{{kTestStart}, {Pose::Translation(2, 0, 0), Pose{}}};
+  CheckOptions options;
+  options.allowed_contacts = {{0, 4}};
+  ExpectAnswer(this->Ask(*dut, both_in_object, options), SpaceStatus::kOccupied, 1, 4);
+  options.allowed_contacts = {{0, 4}, {1, 4}};
+  ExpectAnswer(this->Ask(*dut, both_in_object, options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, first_in_wall, options), SpaceStatus::kOccupied, 0, 0);
+  options.allowed_contacts = {{0, 0}};
+  ExpectAnswer(this->Ask(*dut, first_in_wall, options), SpaceStatus::kOccupied, 1, 4);
+}
+
+TYPED_TEST_P(CheckerSuite, TheLowestLinkThenObjectIsReported) {
+  const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
+  const auto dut =
+      this->Make(this->Room().Object(2, cube, Pose{}).Object(6, cube, Pose{}), this->TwoBalls());
+  ExpectAnswer(this->Ask(*dut, {{kTestStart}, {Pose{}, Pose::Translation(2, 0, 0)}}),
+               SpaceStatus::kOccupied, 0, 2);
+  ExpectAnswer(this->Ask(*dut, {{kTestStart}, {Pose::Translation(2, 0, 0), Pose{}}}),
+               SpaceStatus::kOccupied, 0, 0);
+  ExpectAnswer(this->Ask(*dut, {{kTestStart}, {Pose::Translation(1, 0, 0), Pose{}}}),
+               SpaceStatus::kOccupied, 1, 2);
+}
+
+TYPED_TEST_P(CheckerSuite, AnswersComeInTheOrderOfTheStates) {
+  const Twist forward{Eigen::Vector3d::Zero(), {0.5, 0, 0}};
+  const auto dut = this->Make(this->Room().Object(3, VoxelCuboid({-2, -2, -2}, {2, 2, 2}),
+                                                  Pose::Translation(-3, 0, 0), forward),
+                              this->Ball());
+  const Pose there = Pose::Translation(-2, 0, 0);
+  const auto reply =
+      dut->Check({{TestTime(2), TestTime(0), TestTime(2)}, {there, there, Pose{}}}, {});
+  ASSERT_TRUE(reply.ok()) << reply.status();
+  ASSERT_EQ(reply->answers.size(), 3u);
+  ExpectAnswer(reply->answers[0], SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(reply->answers[1], SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(reply->answers[2], SpaceStatus::kFree, -1, 0);
+}
+
+}  // namespace clearway
