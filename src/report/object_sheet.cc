@@ -58,7 +58,7 @@ Row RowOf(const MovingObject& object, double width_px) {
 // 12345 -> "12,345".
 std::string Grouped(std::size_t number) {
   if (number < 1000) return absl::StrCat(number);
-  return absl::StrCat(Grouped(number / 1000), " ", absl::Dec(number % 1000, absl::kZeroPad3));
+  return absl::StrCat(Grouped(number / 1000), ",", absl::Dec(number % 1000, absl::kZeroPad3));
 }
 
 std::string CaptionOf(const Row& row) {
