@@ -16,6 +16,16 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
 }
 
+// Far enough from the ends of int64 that differences of stamps cannot overflow: 146 years about the
+// epoch of the sensors.
+constexpr std::int64_t kLargestStamp_ns = std::int64_t{1} << 62;
+
+absl::Status CheckStamp(const std::string& field, Time stamp) {
+  const std::int64_t ns = ToNanoseconds(stamp);
+  if (ns >= -kLargestStamp_ns && ns <= kLargestStamp_ns) return absl::OkStatus();
+  return Invalid(field, absl::StrCat("is ", ns, "; it must lie within 2^62 ns of zero"));
+}
+
 absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   const std::size_t points = frame.points_S.size();
   if (points > limits.max_points) {
@@ -68,8 +78,10 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
     return Invalid(motion_field, absl::StrCat("turns by ", turn, " rad in one step; the limit is ",
                                               kMaxTurn, " rad (its direction is ambiguous)"));
   }
+  const std::string from_field = absl::StrCat(field, ".from_stamp_ns");
+  if (auto status = CheckStamp(from_field, motion.from); !status.ok()) return status;
   if (motion.from >= frame.stamp) {
-    return Invalid(absl::StrCat(field, ".from_stamp_ns"),
+    return Invalid(from_field,
                    absl::StrCat("is ", ToNanoseconds(motion.from),
                                 ", not before the frame's stamp ", ToNanoseconds(frame.stamp)));
   }
@@ -98,6 +110,7 @@ absl::Status ValidatePose(const std::string& field, const Pose& pose, double max
 }
 
 absl::Status Validate(const Frame& frame, const FrameLimits& limits) {
+  if (auto status = CheckStamp("stamp_ns", frame.stamp); !status.ok()) return status;
   if (auto status = ValidatePose("world_from_sensor", frame.T_W_S, limits.max_coordinate_m);
       !status.ok()) {
     return status;

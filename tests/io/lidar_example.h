@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
 #include "support/temporary_folder.h"
 
@@ -35,7 +36,7 @@ inline std::string Point(float x, float y, float z, std::int16_t label) {
 inline void WriteExample(const TemporaryFolder& folder) {
   folder.Write("poses_icp.csv", kPoses);
   folder.Write("objects_icp.csv", kObjects);
-  folder.Write("points/0004.bin", Point(1, 2, 3, 0) + Point(4, 5, 6, 2) + Point(7, 8, 9, -1));
+  folder.Write("points/0004.bin", absl::StrCat(Point(1, 2, 3, 0), Point(4, 5, 6, 2), Point(7, 8, 9, -1)));
   folder.Write("points/0005.bin", Point(1, 1, 1, 77));
   folder.Write("points/0006.bin", "");
 }

@@ -86,6 +86,12 @@ TEST(Frame, RefusesAMotionThatDoesNotStartBefore) {
   ExpectRefused([](Frame& f) { f.motions[0].from = f.stamp; }, "motions[0].from_stamp_ns");
 }
 
+TEST(Frame, RefusesStampsNearTheEndsOfTheirRange) {
+  ExpectRefused([](Frame& f) { f.stamp = Time::max(); }, "stamp_ns");
+  ExpectRefused([](Frame& f) { f.stamp = Time::min(); }, "stamp_ns");
+  ExpectRefused([](Frame& f) { f.motions[0].from = Time::min(); }, "motions[0].from_stamp_ns");
+}
+
 TEST(Frame, RefusesTooMuch) {
   ExpectRefused([](Frame& f) { f.points_S.resize(4); }, "points",
                 absl::StatusCode::kResourceExhausted);
