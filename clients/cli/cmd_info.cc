@@ -8,7 +8,7 @@ namespace clearway::cli {
 namespace {
 
 constexpr char kExamples[] =
-    "  clearway info crossing.clearway\n"
+    "  clearway info crossing.cwr\n"
     "  clearway info kitti0000_fov --poses oxts\n"
     "  clearway info map.bt\n"
     "  clearway info sim:street --json";

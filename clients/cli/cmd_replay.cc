@@ -18,7 +18,7 @@ namespace clearway::cli {
 namespace {
 
 constexpr char kExamples[] =
-    "  clearway replay crossing.clearway\n"
+    "  clearway replay crossing.cwr\n"
     "  clearway replay sim:street --noise table1 --rate 1\n"
     "  clearway replay kitti0000_fov --poses icp --from 0 --to 59";
 

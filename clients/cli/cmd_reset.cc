@@ -9,7 +9,7 @@
 namespace clearway::cli {
 namespace {
 
-constexpr char kExamples[] = "  clearway reset && clearway replay drive.clearway";
+constexpr char kExamples[] = "  clearway reset && clearway replay drive.cwr";
 
 struct Flags {
   ServerFlags server;

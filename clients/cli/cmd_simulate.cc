@@ -16,8 +16,8 @@ namespace clearway::cli {
 namespace {
 
 constexpr char kExamples[] =
-    "  clearway simulate crossing --out crossing.clearway\n"
-    "  clearway simulate street --seed 7 --noise table1 --frames 200 --out street.clearway";
+    "  clearway simulate crossing --out crossing.cwr\n"
+    "  clearway simulate street --seed 7 --noise table1 --frames 200 --out street.cwr";
 
 struct Flags {
   std::string scenario;
