@@ -47,16 +47,18 @@ class Pace {
 
   void WaitFor(Time stamp) {
     if (!rate_) return;
-    if (!first_) first_ = stamp;
+    if (!started_) first_ = stamp;
+    started_ = true;
     std::this_thread::sleep_until(
         start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                     std::chrono::duration<double>(ToSeconds(stamp - *first_) / *rate_)));
+                     std::chrono::duration<double>(ToSeconds(stamp - first_) / *rate_)));
   }
 
  private:
   const std::optional<double> rate_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<Time> first_;
+  bool started_ = false;
+  Time first_;  // the first frame's
 };
 
 // Frames [first, end) of the source through one stream; returns what stopped it early.
