@@ -1,0 +1,39 @@
+// Counts the server's answers to a stream of frames.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+
+#include "clearway/client/frame_sender.h"
+
+namespace clearway::cli {
+
+// Any thread may call any method; it must outlive the stream that it listens to.
+class AckTally {
+ public:
+  // A plain value.
+  struct Counts {
+    std::size_t answered = 0;  // with whatever answer
+    std::size_t refused = 0;
+    std::size_t repeated = 0;    // remembered answers to an earlier push
+    std::uint64_t points = 0;    // of the answered frames
+    PushAck last;                // of the newest version that was named
+    absl::Status first_refusal;  // OK if there is none
+    std::string first_refused_sensor;
+    std::uint64_t first_refused_sequence = 0;
+  };
+
+  // To be called before each frame is sent; answers come in the order sent.
+  void Sent(std::uint64_t points);
+  FrameSender::OnAck OnAck();
+  Counts counts() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<std::uint64_t> points_in_flight_;
+  Counts counts_;
+};
+
+}  // namespace clearway::cli

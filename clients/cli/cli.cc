@@ -1,0 +1,76 @@
+#include "cli/cli.h"
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/message.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kFooter[] =
+    "Start a server with clearway-server, then for example\n"
+    "  clearway replay sim:crossing\n"
+    "  clearway objects\n"
+    "  clearway occupancy --slice 0.5 --time +1.5\n"
+    "'clearway COMMAND --help' shows a command's flags and an example.";
+
+void AddAllCommands(Cli& cli) {
+  AddSimulate(cli);
+  AddInfo(cli);
+  AddReplay(cli);
+  AddStatus(cli);
+  AddObjects(cli);
+  AddOccupancy(cli);
+  AddCheck(cli);
+  AddExport(cli);
+  AddLoadPrior(cli);
+  AddReset(cli);
+  AddServerInfo(cli);
+}
+
+// Help and version go to `out`, complaints to `err`.
+int Explain(const CLI::App& app, const CLI::ParseError& error, const Terminal& terminal) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    app.exit(error, terminal.out, terminal.err);
+    return kExitOk;
+  }
+  std::string command = "clearway";
+  for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+  terminal.err << "clearway: " << error.what() << "\nRun '" << command
+               << " --help' for its usage.\n";
+  return kExitUsage;
+}
+
+}  // namespace
+
+CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summary,
+                     const std::string& examples, std::function<absl::Status()> run) {
+  CLI::App* command = cli.app.add_subcommand(name, summary);
+  command->footer("Examples:\n" + examples);
+  command->get_formatter()->column_width(34);
+  command->callback([&cli, run = std::move(run)] { cli.action = run; });
+  return command;
+}
+
+int RunCli(int argc, const char* const* argv, Terminal& terminal) {
+  CLI::App app("Clearway: is this robot state free at that time? A client of clearway-server.",
+               "clearway");
+  app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  Cli cli{app, terminal, nullptr};
+  AddAllCommands(cli);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return Explain(app, error, terminal);
+  }
+  const absl::Status status = cli.action();
+  terminal.out.flush();
+  if (status.ok()) return kExitOk;
+  terminal.err << "clearway: " << MessageFor(status) << "\n";
+  return IsUsageError(status) ? kExitUsage : kExitFailed;
+}
+
+}  // namespace clearway::cli

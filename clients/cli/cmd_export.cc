@@ -1,0 +1,137 @@
+// clearway export: a map of the server as a file.
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "cli/commands.h"
+#include "cli/export_target.h"
+#include "cli/json.h"
+#include "cli/message.h"
+#include "cli/server_flags.h"
+#include "cli/text.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kExamples[] =
+    "  clearway export --what static --out map.bt\n"
+    "  clearway export --what object:1 --out van.ply\n"
+    "  clearway export --what scene@+1.0 --format ot --out - > future.ot";
+
+struct Flags {
+  ServerFlags server;
+  ExportArgument what;
+  std::optional<MapFormat> format;
+  std::string out;
+  bool json = false;
+};
+
+// The format that was asked for, or that the file's extension names.
+absl::StatusOr<MapFormat> FormatOf(const Flags& flags) {
+  if (flags.format) return *flags.format;
+  const std::string extension = std::filesystem::path(flags.out).extension().string();
+  auto format = ParseMapFormat(extension.empty() ? "" : extension.substr(1));
+  if (!format.ok()) {
+    return UsageError("give --format, or an --out that ends in .bt, .ot or .ply");
+  }
+  return format;
+}
+
+absl::StatusOr<ExportTarget> TargetOf(const ExportArgument& what, const SceneClient& client) {
+  if (const auto* object = std::get_if<ObjectTarget>(&what)) return *object;
+  const auto* scene = std::get_if<SceneAtArgument>(&what);
+  if (scene == nullptr) return StaticMapTarget{};
+  const auto status = client.GetStatus();
+  if (!status.ok()) return status.status();
+  return SceneAtTarget{scene->time.At(status->stamp)};
+}
+
+struct Exported : Versioned {
+  std::uint64_t bytes = 0;
+};
+
+absl::StatusOr<Exported> WriteTo(std::ostream& stream, const SceneClient& client,
+                                 const ExportTarget& target, MapFormat format) {
+  Exported exported;
+  const auto answer = client.ExportMap(target, format, [&](std::string_view piece) {
+    stream.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+    exported.bytes += piece.size();
+    return stream
+               ? absl::OkStatus()
+               : absl::UnavailableError(absl::StrCat("cannot be written: ", std::strerror(errno)));
+  });
+  if (!answer.ok()) return answer.status();
+  static_cast<Versioned&>(exported) = *answer;
+  return exported;
+}
+
+// The file appears under its name only when it is whole.
+absl::StatusOr<Exported> WriteFile(const std::string& path, const SceneClient& client,
+                                   const ExportTarget& target, MapFormat format) {
+  const std::string partial = path + ".partial";
+  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+  if (!file) {
+    return absl::UnavailableError(
+        absl::StrCat(path, ": cannot be written: ", std::strerror(errno)));
+  }
+  auto exported = WriteTo(file, client, target, format);
+  file.close();
+  std::error_code error;
+  if (exported.ok() && file) {
+    std::filesystem::rename(partial, path, error);
+    if (!error) return exported;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);
+  if (!exported.ok()) return exported.status();
+  return absl::UnavailableError(absl::StrCat(path, ": cannot be written"));
+}
+
+absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  const auto format = FormatOf(flags);
+  if (!format.ok()) return format.status();
+  const bool to_stdout = flags.out == "-";
+  if (to_stdout && flags.json) return UsageError("--json and --out - both want stdout");
+  const auto connection = Connect(flags.server);
+  if (!connection.ok()) return connection.status();
+  const SceneClient client(*connection);
+  const auto target = TargetOf(flags.what, client);
+  if (!target.ok()) return target.status();
+  const auto exported = to_stdout ? WriteTo(terminal.out, client, *target, *format)
+                                  : WriteFile(flags.out, client, *target, *format);
+  if (!exported.ok()) return exported.status();
+  if (to_stdout) return absl::OkStatus();
+  if (flags.json) {
+    Json json = ToJson(static_cast<const Versioned&>(*exported));
+    json.update(Json{{"file", flags.out}, {"bytes", exported->bytes}});
+    Print(terminal.out, json);
+  } else {
+    terminal.out << "wrote " << flags.out << ": " << Bytes(exported->bytes) << ", scene version "
+                 << exported->version << "\n";
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddExport(Cli& cli) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = AddCommand(cli, "export", "Save a map of the server as a file", kExamples,
+                                 [flags, &cli] { return Run(*flags, cli.terminal); });
+  AddParsed(
+      command, "--what", &flags->what, ParseExportTarget,
+      "static (default), object:ID in its own frame, or\nscene@TIME: everything as it is then "
+      "(scene: now)");
+  AddParsed(
+      command, "--format", &flags->format, ParseMapFormat,
+      "bt (OctoMap, three-way), ot (OctoMap, log-odds), ply\n(occupied voxels); default: by the "
+      "file's name");
+  command->add_option("-o,--out", flags->out, "The file to write; - is stdout")->required();
+  command->add_flag("--json", flags->json, "Print a summary as JSON");
+  AddServerFlags(command, &flags->server);
+}
+
+}  // namespace clearway::cli

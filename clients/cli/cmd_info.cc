@@ -1,0 +1,65 @@
+// clearway info: what a file or folder holds.
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/file_info.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kExamples[] =
+    "  clearway info crossing.cwr\n"
+    "  clearway info kitti0000_fov --poses oxts\n"
+    "  clearway info map.bt\n"
+    "  clearway info sim:street --json";
+
+struct Flags {
+  std::string spec;
+  SourceFlags source;
+  bool json = false;
+};
+
+absl::StatusOr<FileInfo> InfoOf(const Flags& flags) {
+  switch (KindOf(flags.spec)) {
+    case SourceKind::kSimulation:
+      return InfoOfSimulation(flags.spec, flags.source);
+    case SourceKind::kLidarFolder:
+      return InfoOfLidarFolder(flags.spec, flags.source);
+    case SourceKind::kOctomap:
+      return InfoOfOctomap(flags.spec);
+    case SourceKind::kRecording:
+      break;
+  }
+  return InfoOfRecording(flags.spec);
+}
+
+absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  const auto info = InfoOf(flags);
+  if (!info.ok()) return info.status();
+  if (flags.json) {
+    Print(terminal.out, info->json);
+  } else {
+    terminal.out << info->text;
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddInfo(Cli& cli) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = AddCommand(cli, "info", "Show what a recording, folder or map holds",
+                                 kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
+  command
+      ->add_option("input", flags->spec,
+                   "A recording, a folder of LiDAR scans, an OctoMap file\n(.bt, .ot), or sim:NAME")
+      ->required();
+  command
+      ->add_option("--poses", flags->source.poses,
+                   "A LiDAR folder's tables: icp, oxts, plain, or any\n(the first there is)")
+      ->check(CLI::IsMember({"any", "plain", "icp", "oxts"}).description(""))
+      ->capture_default_str();
+  command->add_flag("--json", flags->json, "Print JSON");
+}
+
+}  // namespace clearway::cli

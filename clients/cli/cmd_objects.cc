@@ -1,0 +1,146 @@
+// clearway objects: the moving objects of the newest scene.
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/client/scene_client.h"
+#include "clearway/report/table.h"
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/server_flags.h"
+#include "cli/text.h"
+#include "cli/values.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kExamples[] =
+    "  clearway objects\n"
+    "  clearway objects --time +1.5          where they will be 1.5 s after the newest frame\n"
+    "  clearway objects --json | jq '.objects[] | {id, speed_mps}'";
+
+struct Flags {
+  ServerFlags server;
+  std::optional<TimeArgument> time;
+  bool json = false;
+};
+
+struct ObjectRow {
+  ObjectInfo info;
+  std::optional<PredictedPose> then;  // at the time asked for
+};
+
+// Objects that a newer scene has or lacks are matched by id.
+absl::Status AddPredictions(const SceneClient& client, Time time, std::vector<ObjectRow>& rows) {
+  const auto predicted = client.PredictPoses({}, {&time, 1});
+  if (!predicted.ok()) return predicted.status();
+  for (std::size_t i = 0; i < predicted->objects.size() && i < predicted->poses.size(); ++i) {
+    for (ObjectRow& row : rows) {
+      if (row.info.id == predicted->objects[i]) row.then = predicted->poses[i];
+    }
+  }
+  return absl::OkStatus();
+}
+
+Json AsJson(const ObjectRow& row) {
+  const ObjectInfo& o = row.info;
+  Json json = {{"id", o.id},
+               {"frames_seen", o.frames_seen},
+               {"occupied_voxels", o.occupied_voxels},
+               {"observed_voxels", o.observed_voxels},
+               {"speed_mps", o.speed_mps},
+               {"at_rest", o.at_rest},
+               {"bridged", o.bridged},
+               {"world_from_object", ToJson(o.T_W_O)},
+               {"pose_stamp_ns", ToNanoseconds(o.t_k)},
+               {"velocity_object", nullptr},
+               {"box_object", ToJson(o.box_O)},
+               {"box_world", ToJson(o.box_W)},
+               {"first_seen_ns", ToNanoseconds(o.first_seen)},
+               {"last_seen_ns", ToNanoseconds(o.last_seen)}};
+  if (o.velocity_O) {
+    json["velocity_object"] = {{"angular_radps", ToJson(o.velocity_O->angular)},
+                               {"linear_mps", ToJson(o.velocity_O->linear)}};
+  }
+  if (row.then) {
+    json["predicted"] = {{"world_from_object", ToJson(row.then->T_W_O)},
+                         {"beyond_horizon", row.then->beyond_horizon_radius_m.has_value()}};
+  }
+  return json;
+}
+
+// "moving", and what else a planner's author wants to know of the motion.
+std::string MotionOf(const ObjectInfo& o) {
+  if (o.bridged) return "bridged";
+  if (!o.velocity_O) return "unknown";
+  return o.at_rest ? "at rest" : "moving";
+}
+
+void PrintText(std::ostream& out, const ObjectList& list, const std::vector<ObjectRow>& rows,
+               std::optional<Time> time) {
+  out << "scene version " << list.version << ", newest stamp " << Seconds(list.stamp) << ", "
+      << Plural(rows.size(), "object") << "\n";
+  if (rows.empty()) return;
+  std::vector<std::string> header = {"id",        "frames", "voxels",   "size",
+                                     "speed m/s", "motion", "position", "last seen"};
+  if (time) header.push_back("at " + Seconds(*time));
+  Table table(header);
+  for (const ObjectRow& row : rows) {
+    const ObjectInfo& o = row.info;
+    std::vector<std::string> cells = {
+        absl::StrCat(o.id),
+        absl::StrCat(o.frames_seen),
+        Grouped(o.occupied_voxels),
+        Size(o.box_O),
+        Fixed(o.speed_mps, 2),
+        MotionOf(o),
+        Point(o.T_W_O.translation),
+        o.last_seen == list.stamp ? "now" : Seconds(list.stamp - o.last_seen) + " ago"};
+    if (row.then) {
+      cells.push_back(Point(row.then->T_W_O.translation) +
+                      (row.then->beyond_horizon_radius_m ? " beyond horizon" : ""));
+    }
+    table.AddRow(std::move(cells));
+  }
+  out << table.ToString();
+}
+
+absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  const auto connection = Connect(flags.server);
+  if (!connection.ok()) return connection.status();
+  const SceneClient client(*connection);
+  const auto list = client.ListObjects();
+  if (!list.ok()) return list.status();
+  std::vector<ObjectRow> rows;
+  for (const ObjectInfo& info : list->objects) rows.push_back({info, std::nullopt});
+  std::optional<Time> time;
+  if (flags.time) {
+    time = flags.time->At(list->stamp);
+    if (const absl::Status status = AddPredictions(client, *time, rows); !status.ok())
+      return status;
+  }
+  if (!flags.json) {
+    PrintText(terminal.out, *list, rows, time);
+    return absl::OkStatus();
+  }
+  Json json = ToJson(static_cast<const Versioned&>(*list));
+  if (time) json["time_ns"] = ToNanoseconds(*time);
+  json["objects"] = Json::array();
+  for (const ObjectRow& row : rows) json["objects"].push_back(AsJson(row));
+  Print(terminal.out, json);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddObjects(Cli& cli) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = AddCommand(cli, "objects", "List the moving objects", kExamples,
+                                 [flags, &cli] { return Run(*flags, cli.terminal); });
+  AddParsed(
+      command, "--time", &flags->time, ParseTime,
+      "Also where they are then: +seconds after the\nnewest stamp, or seconds of sensor time");
+  command->add_flag("--json", flags->json, "Print JSON");
+  AddServerFlags(command, &flags->server);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,187 @@
+// clearway replay: frames of any source to a server.
+#include <memory>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/client/frame_sender.h"
+#include "cli/ack_tally.h"
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/message.h"
+#include "cli/open_source.h"
+#include "cli/progress.h"
+#include "cli/server_flags.h"
+#include "cli/text.h"
+#include "cli/values.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kExamples[] =
+    "  clearway replay crossing.cwr\n"
+    "  clearway replay sim:street --noise table1 --rate 1\n"
+    "  clearway replay kitti0000_fov --poses icp --from 0 --to 59";
+
+struct Flags {
+  ServerFlags server;
+  SourceFlags source;
+  std::string spec;
+  std::optional<double> rate;
+  std::size_t from = 0;
+  std::optional<std::size_t> to;
+  std::string wait = "applied";
+  bool keep_going = false;
+  bool quiet = false;
+  bool json = false;
+};
+
+AckLevel AckLevelOf(const std::string& text) {
+  if (text == "accepted") return AckLevel::kAccepted;
+  return text == "durable" ? AckLevel::kDurable : AckLevel::kApplied;
+}
+
+// Sleeps so that frames leave in the rhythm of their stamps, `rate` times as fast.
+class Pace {
+ public:
+  explicit Pace(std::optional<double> rate) : rate_(rate) {}
+
+  void WaitFor(Time stamp) {
+    if (!rate_) return;
+    if (!started_) first_ = stamp;
+    started_ = true;
+    std::this_thread::sleep_until(
+        start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                     std::chrono::duration<double>(ToSeconds(stamp - first_) / *rate_)));
+  }
+
+ private:
+  const std::optional<double> rate_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool started_ = false;
+  Time first_;  // the first frame's
+};
+
+// Frames [first, end) of the source through one stream; returns what stopped it early.
+absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t end,
+                     const Flags& flags, FrameSender& sender, AckTally& tally,
+                     ProgressBar* progress) {
+  Pace pace(flags.rate);
+  for (std::size_t i = first; i < end; ++i) {
+    const auto frame = source.read(i);
+    if (!frame.ok()) return frame.status();
+    pace.WaitFor(frame->stamp);
+    tally.Sent(frame->points_S.size());
+    if (const absl::Status status = sender.Send(*frame); !status.ok()) return status;
+    if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
+    if (progress != nullptr) progress->Update(tally.counts().answered, tally.counts().points);
+  }
+  return absl::OkStatus();
+}
+
+Json AsJson(const AckTally::Counts& counts, double seconds) {
+  Json json = {{"frames", counts.answered},
+               {"applied", counts.answered - counts.refused},
+               {"refused", counts.refused},
+               {"repeated", counts.repeated},
+               {"points", counts.points},
+               {"version", counts.last.version},
+               {"stamp_ns", ToNanoseconds(counts.last.stamp)},
+               {"elapsed_s", seconds}};
+  if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
+  return json;
+}
+
+void PrintText(std::ostream& out, const AckTally::Counts& counts) {
+  out << "sent " << Plural(counts.answered, "frame") << ", " << Plural(counts.points, "point");
+  if (counts.last.version > 0) {
+    out << "; scene version " << counts.last.version << ", newest stamp "
+        << Seconds(counts.last.stamp);
+  }
+  out << "\n";
+  if (counts.refused > 0) out << Plural(counts.refused, "frame") << " refused\n";
+  if (counts.repeated > 0) {
+    out << Plural(counts.repeated, "frame")
+        << " had been sent before and changed nothing ('clearway reset' starts over)\n";
+  }
+}
+
+absl::Status CheckRange(const Flags& flags, std::size_t frame_count) {
+  if (frame_count == 0) return absl::FailedPreconditionError(flags.spec + ": holds no frames");
+  const std::size_t to = flags.to.value_or(frame_count - 1);
+  if (flags.from > to) {
+    return UsageError(absl::StrCat("--from ", flags.from, " is after --to ", to));
+  }
+  if (to >= frame_count) {
+    return UsageError(
+        absl::StrCat("--to ", to, ": ", flags.spec, " ends at frame ", frame_count - 1));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  const auto source = OpenSource(flags.spec, flags.source);
+  if (!source.ok()) return source.status();
+  if (const absl::Status status = CheckRange(flags, source->frame_count); !status.ok())
+    return status;
+  const std::size_t end = flags.to ? *flags.to + 1 : source->frame_count;
+  const auto connection = Connect(flags.server);
+  if (!connection.ok()) return connection.status();
+
+  AckTally tally;
+  FrameSender sender(*connection);
+  absl::Status status = sender.OpenStream(tally.OnAck(), AckLevelOf(flags.wait));
+  if (!status.ok()) return status;
+  ProgressBar progress(terminal.err, terminal.err_is_terminal, end - flags.from);
+  status =
+      SendAll(*source, flags.from, end, flags, sender, tally, flags.quiet ? nullptr : &progress);
+  // The stream's end knows why it broke.
+  if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
+  const AckTally::Counts counts = tally.counts();
+  progress.Update(counts.answered, counts.points);
+  if (!flags.quiet) progress.Finish();
+  if (!status.ok()) return status;
+
+  if (flags.json) {
+    Print(terminal.out, AsJson(counts, progress.state().elapsed_s));
+  } else {
+    PrintText(terminal.out, counts);
+  }
+  if (counts.refused > 0) {
+    return InContext(absl::StrCat("frame ", counts.first_refused_sequence, " of ",
+                                  counts.first_refused_sensor, " was refused"),
+                     counts.first_refusal);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddReplay(Cli& cli) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = AddCommand(cli, "replay", "Send frames to the server", kExamples,
+                                 [flags, &cli] { return Run(*flags, cli.terminal); });
+  command
+      ->add_option("source", flags->spec,
+                   "A recording, a folder of LiDAR scans, or sim:NAME\n(a scenario of 'simulate')")
+      ->required();
+  command
+      ->add_option(
+          "--rate", flags->rate,
+          "Times as fast as recorded; 1 is real time\n(default: as fast as the server goes)")
+      ->check(CLI::Range(1e-3, 1e6).description(""));
+  command->add_option("--from", flags->from, "First frame, counted from 0")->capture_default_str();
+  command->add_option("--to", flags->to, "Last frame (default: the source's last)");
+  command
+      ->add_option("--wait", flags->wait,
+                   "When a frame counts as done: accepted, applied\nor durable")
+      ->check(CLI::IsMember({"accepted", "applied", "durable"}).description(""))
+      ->capture_default_str();
+  command->add_flag("--keep-going", flags->keep_going,
+                    "Go on after a refused frame (the exit code is 1 still)");
+  command->add_flag("-q,--quiet", flags->quiet, "No progress on stderr");
+  command->add_flag("--json", flags->json, "Print a summary as JSON");
+  AddSourceFlags(command, &flags->source);
+  AddServerFlags(command, &flags->server);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,23 @@
+// The subcommands, one file each.
+#pragma once
+
+#include "cli/cli.h"
+
+namespace clearway::cli {
+
+// Sources of frames, no server needed.
+void AddSimulate(Cli& cli);
+void AddInfo(Cli& cli);
+
+// Everything below talks to a server.
+void AddReplay(Cli& cli);
+void AddStatus(Cli& cli);
+void AddObjects(Cli& cli);
+void AddOccupancy(Cli& cli);
+void AddCheck(Cli& cli);
+void AddExport(Cli& cli);
+void AddLoadPrior(Cli& cli);
+void AddReset(Cli& cli);
+void AddServerInfo(Cli& cli);
+
+}  // namespace clearway::cli

@@ -1,0 +1,111 @@
+#include <map>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/io/lidar_folder.h"
+#include "clearway/report/table.h"
+#include "cli/file_info.h"
+#include "cli/text.h"
+
+namespace clearway::cli {
+namespace {
+
+struct Track {
+  std::string type;
+  std::size_t frames = 0;
+  std::uint64_t points = 0;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // mean
+  double path_m = 0;                                 // of the box's centre
+  Eigen::Vector3d last_W = Eigen::Vector3d::Zero();
+};
+
+std::map<ObjectId, Track> TracksOf(const std::vector<RecordedBox>& boxes) {
+  std::map<ObjectId, Track> tracks;
+  for (const RecordedBox& box : boxes) {
+    Track& track = tracks[box.id];
+    if (track.frames > 0) track.path_m += (box.T_W_B.translation - track.last_W).norm();
+    track.type = box.type;
+    track.last_W = box.T_W_B.translation;
+    ++track.frames;
+    track.points += static_cast<std::uint64_t>(std::max(box.n_points, 0));
+    track.size_m += (box.size_m - track.size_m) / static_cast<double>(track.frames);
+  }
+  return tracks;
+}
+
+struct PointCount {
+  std::size_t scans = 0;  // frames with points
+  std::uint64_t points = 0;
+};
+
+absl::StatusOr<PointCount> CountPoints(const FrameSource& frames) {
+  PointCount count;
+  for (std::size_t i = 0; i < frames.frame_count; ++i) {
+    const auto frame = frames.read(i);
+    if (!frame.ok()) return frame.status();
+    count.scans += frame->points_S.empty() ? 0 : 1;
+    count.points += frame->points_S.size();
+  }
+  return count;
+}
+
+double SensorPath(const std::vector<RecordedPose>& poses) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    length_m += (poses[i].T_W_S.translation - poses[i - 1].T_W_S.translation).norm();
+  }
+  return length_m;
+}
+
+std::string TableOf(const std::map<ObjectId, Track>& tracks) {
+  Table table({"id", "type", "frames", "points", "size", "path m"});
+  for (const auto& [id, track] : tracks) {
+    table.AddRow({absl::StrCat(id), track.type, Grouped(track.frames), Grouped(track.points),
+                  Size(Aabb{-track.size_m / 2, track.size_m / 2}), Fixed(track.path_m, 1)});
+  }
+  return table.ToString();
+}
+
+Json JsonOf(const std::map<ObjectId, Track>& tracks) {
+  Json objects = Json::array();
+  for (const auto& [id, track] : tracks) {
+    objects.push_back({{"id", id},
+                       {"type", track.type},
+                       {"frames", track.frames},
+                       {"points", track.points},
+                       {"size_m", ToJson(track.size_m)},
+                       {"path_m", track.path_m}});
+  }
+  return objects;
+}
+
+}  // namespace
+
+absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const SourceFlags& flags) {
+  const auto folder = OpenFolder(path, flags, /*allow_missing_points=*/true);
+  if (!folder.ok()) return folder.status();
+  const auto count = CountPoints(folder->frames);
+  if (!count.ok()) return count.status();
+  const auto tracks = TracksOf(folder->boxes);
+  const bool empty = folder->poses.empty();
+  const Time first = empty ? Time() : folder->poses.front().stamp;
+  const Time last = empty ? Time() : folder->poses.back().stamp;
+
+  FileInfo info;
+  info.text = absl::StrCat(
+      "folder      ", path, "\n", "frames      ", Grouped(folder->frames.frame_count), " over ",
+      Seconds(last - first), ", ", Grouped(count->scans), " with points\n", "points      ",
+      Grouped(count->points), "\n", "sensor      moves ", Fixed(SensorPath(folder->poses), 1),
+      " m\n", "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  info.json = {{"kind", "lidar_folder"},
+               {"path", path},
+               {"description", folder->frames.description},
+               {"frames", folder->frames.frame_count},
+               {"frames_with_points", count->scans},
+               {"points", count->points},
+               {"first_stamp_ns", ToNanoseconds(first)},
+               {"last_stamp_ns", ToNanoseconds(last)},
+               {"objects", JsonOf(tracks)}};
+  return info;
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,275 @@
+// The tool against a real server that has seen a small simulated drive.
+#include <gmock/gmock.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "clients/server_process.h"
+#include "clients/subprocess.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr int kFrames = 8;
+
+class CliServer : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    server_ = std::make_unique<ServerProcess>();
+    ASSERT_FALSE(server_->address().empty()) << "the server did not start";
+  }
+
+  Finished Clearway(std::vector<std::string> arguments, const std::string& input = "") {
+    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
+    arguments.insert(arguments.end(), {"--server", server_->address()});
+    return RunProgram(arguments, input);
+  }
+
+  // The answer of a command that must succeed.
+  json Ask(std::vector<std::string> arguments, const std::string& input = "") {
+    arguments.push_back("--json");
+    const Finished finished = Clearway(std::move(arguments), input);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return json::parse(finished.out, nullptr, /*allow_exceptions=*/false);
+  }
+
+  json Replay() {
+    return Ask({"replay", "sim:small", "--frames", std::to_string(kFrames), "--quiet"});
+  }
+
+  // "x,y,z" of an object that moves, as the server has it.
+  std::string PointInAnObject(json* object) {
+    const json objects = Ask({"objects"});
+    for (const json& candidate : objects["objects"]) {
+      if (candidate["speed_mps"] < 0.1) continue;
+      *object = candidate;
+      const json& box = candidate["box_world"];
+      std::string point;
+      for (int i = 0; i < 3; ++i) {
+        const double middle = (box["min_m"][i].get<double>() + box["max_m"][i].get<double>()) / 2;
+        point += (i == 0 ? "" : ",") + std::to_string(middle);
+      }
+      return point;
+    }
+    ADD_FAILURE() << "nothing moves: " << objects.dump();
+    return "0,0,0";
+  }
+
+  std::unique_ptr<ServerProcess> server_;
+};
+
+TEST_F(CliServer, Empty) {
+  EXPECT_EQ(Ask({"objects"})["objects"], json::array());
+  EXPECT_EQ(Ask({"status"})["frames_applied"], 0);
+  EXPECT_THAT(Clearway({"objects"}).out, HasSubstr("0 objects"));
+  const Finished slice = Clearway({"occupancy", "--slice", "0"});
+  EXPECT_EQ(slice.exit_code, 1);
+  EXPECT_THAT(slice.err, HasSubstr("clearway: the scene is empty"));
+}
+
+TEST_F(CliServer, ReplayIsAppliedOnce) {
+  const json first = Replay();
+  EXPECT_EQ(first["frames"], kFrames);
+  EXPECT_EQ(first["applied"], kFrames);
+  EXPECT_EQ(first["repeated"], 0);
+  const json status = Ask({"status"});
+  EXPECT_EQ(status["frames_applied"], kFrames);
+  EXPECT_EQ(status["version"], first["version"]);
+  EXPECT_EQ(Replay()["repeated"], kFrames);
+}
+
+TEST_F(CliServer, ReplayShowsItsProgress) {
+  const Finished dut = Clearway({"replay", "sim:small", "--frames", "4"});
+  EXPECT_EQ(dut.exit_code, 0) << dut.err;
+  EXPECT_THAT(dut.err, HasSubstr("4/4 frames"));
+  EXPECT_THAT(dut.err, HasSubstr("points/s"));
+  EXPECT_THAT(dut.out, StartsWith("sent 4 frames"));
+}
+
+TEST_F(CliServer, ReplayTakesARange) {
+  EXPECT_EQ(Ask({"replay", "sim:small", "--from", "2", "--to", "4"})["frames"], 3);
+  const Finished backwards = Clearway({"replay", "sim:small", "--from", "4", "--to", "2"});
+  EXPECT_EQ(backwards.exit_code, 2);
+  const Finished beyond = Clearway({"replay", "sim:small", "--to", "100000"});
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("ends at frame"));
+}
+
+TEST_F(CliServer, ReplayStopsAtARefusedFrame) {
+  Ask({"replay", "sim:small", "--from", "5", "--to", "5"});
+  const Finished dut = Clearway({"replay", "sim:small", "--from", "0", "--to", "4"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("was refused: "));
+  EXPECT_EQ(Ask({"status"})["frames_applied"], 1);
+}
+
+TEST_F(CliServer, ARecordingMakesTheSameSceneAsItsSource) {
+  Replay();
+  const json from_source = Ask({"status", "--hash"});
+  const TemporaryFolder folder;
+  const std::string file = folder / "small.cwr";
+  RunProgram(
+      {CLEARWAY_BINARY, "simulate", "small", "--frames", std::to_string(kFrames), "--out", file});
+  Ask({"reset"});
+  EXPECT_EQ(Ask({"replay", file})["applied"], kFrames);
+  EXPECT_EQ(Ask({"status", "--hash"})["scene_hash"], from_source["scene_hash"]);
+  EXPECT_EQ(from_source["scene_hash"].get<std::string>().size(), 32u);
+}
+
+TEST_F(CliServer, ListsObjects) {
+  Replay();
+  const json objects = Ask({"objects", "--time", "+1"})["objects"];
+  ASSERT_FALSE(objects.empty());
+  for (const json& object : objects) {
+    EXPECT_GT(object["occupied_voxels"], 0);
+    EXPECT_TRUE(object.contains("predicted"));
+  }
+  const std::string text = Clearway({"objects"}).out;
+  for (const char* column : {"frames", "voxels", "size", "speed", "position", "last seen"}) {
+    EXPECT_THAT(text, HasSubstr(column));
+  }
+}
+
+TEST_F(CliServer, AnObjectOccupiesWhereItIsAndLeavesWithTime) {
+  Replay();
+  json object;
+  const std::string point = PointInAnObject(&object);
+  const json now = Ask({"occupancy", "--at", point})["points"][0];
+  EXPECT_EQ(now["status"], "OCCUPIED");
+  EXPECT_EQ(now["object_id"], object["id"]);
+  EXPECT_THAT(Clearway({"occupancy", "--at", point}).out,
+              HasSubstr("object " + object["id"].dump()));
+  // Every point at every time.
+  const json both =
+      Ask({"occupancy", "--at", point, "--at", "0,0,0", "--time", "now", "--time", "+1"});
+  ASSERT_EQ(both["points"].size(), 4u);
+  EXPECT_EQ(both["points"][1]["time_ns"].get<std::int64_t>(),
+            both["stamp_ns"].get<std::int64_t>() + 1'000'000'000);
+}
+
+TEST_F(CliServer, CountsTheCellsOfABox) {
+  Replay();
+  const json box = Ask({"occupancy", "--box", "0,-1,-1,2,1,1", "--time", "now", "--time", "+2"});
+  ASSERT_EQ(box["times"].size(), 2u);
+  std::uint64_t cells = 1, counted = 0;
+  for (const json& count : box["cell_counts"]) cells *= count.get<std::uint64_t>();
+  for (const char* status :
+       {"free", "unknown_space", "beyond_horizon", "occupied", "out_of_bounds"}) {
+    counted += box["times"][0][status].get<std::uint64_t>();
+  }
+  EXPECT_EQ(counted, cells);
+}
+
+TEST_F(CliServer, DrawsASlice) {
+  Replay();
+  json object;
+  PointInAnObject(&object);
+  const double z_m = (object["box_world"]["min_m"][2].get<double>() +
+                      object["box_world"]["max_m"][2].get<double>()) /
+                     2;
+  const std::string id = object["id"].dump();
+  const json slice = Ask({"occupancy", "--slice", std::to_string(z_m)});
+  const json& rows = slice["times"][0]["rows_from_lowest_y"];
+  ASSERT_EQ(rows.size(), slice["rows"].get<std::size_t>());
+  EXPECT_THAT(rows.dump(), HasSubstr(id));
+  const Finished picture = Clearway({"occupancy", "--slice", std::to_string(z_m)});
+  EXPECT_THAT(picture.out, HasSubstr("# static"));
+  EXPECT_THAT(picture.out.substr(picture.out.find("\n\n")), HasSubstr(id));
+}
+
+TEST_F(CliServer, ChecksStates) {
+  Replay();
+  json object;
+  const std::string point = PointInAnObject(&object);
+  const json hit = Ask({"check", "--robot", "sphere:0.2", "--state", point + ",0", "--state",
+                        point + ",0,now", "--clearance", "1"});
+  ASSERT_EQ(hit["states"].size(), 2u);
+  EXPECT_EQ(hit["states"][0]["status"], "OCCUPIED");
+  EXPECT_EQ(hit["states"][0]["object_id"], object["id"]);
+  EXPECT_EQ(hit["states"][0]["clearance_m"], 0);
+  EXPECT_EQ(hit["states"][0], hit["states"][1]);
+  const json ignored = Ask({"check", "--robot", "sphere:0.2", "--state", point + ",0", "--unknown",
+                            "free", "--ignore", object["id"].dump()});
+  EXPECT_EQ(ignored["states"][0]["status"], "FREE");
+  EXPECT_EQ(ignored["states"][0]["link"], nullptr);
+}
+
+TEST_F(CliServer, RequireFreeIsForScripts) {
+  Replay();
+  json object;
+  const std::string point = PointInAnObject(&object);
+  const Finished dut =
+      Clearway({"check", "--robot", "sphere:0.2", "--state", point + ",0", "--require-free"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.out, HasSubstr("occupied"));
+  EXPECT_THAT(dut.err, HasSubstr("1 of 1 states not free"));
+}
+
+TEST_F(CliServer, ExportsMapsThatInfoReads) {
+  Replay();
+  const TemporaryFolder folder;
+  const json status = Ask({"status"});
+  for (const char* format : {"bt", "ot"}) {
+    const std::string file = folder / (std::string("static.") + format);
+    EXPECT_GT(Ask({"export", "--out", file})["bytes"], 0);
+    const json info = json::parse(RunProgram({CLEARWAY_BINARY, "info", file, "--json"}).out);
+    EXPECT_EQ(info["occupied_voxels"], status["static_occupied_voxels"]);
+    EXPECT_EQ(info["format"], format);
+  }
+}
+
+TEST_F(CliServer, ExportsObjectsAndTheFuture) {
+  Replay();
+  json object;
+  PointInAnObject(&object);
+  const Finished ply = Clearway(
+      {"export", "--what", "object:" + object["id"].dump(), "--format", "ply", "--out", "-"});
+  EXPECT_EQ(ply.exit_code, 0) << ply.err;
+  EXPECT_THAT(ply.out, StartsWith("ply\n"));
+  EXPECT_THAT(ply.out, HasSubstr("element vertex " + object["occupied_voxels"].dump()));
+  const TemporaryFolder folder;
+  EXPECT_GT(Ask({"export", "--what", "scene@+0.5", "--out", folder / "scene.bt"})["bytes"], 0);
+}
+
+TEST_F(CliServer, ExportOfAnUnknownObjectLeavesNoFile) {
+  const TemporaryFolder folder;
+  const Finished dut = Clearway({"export", "--what", "object:99", "--out", folder / "o.ply"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("99"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_F(CliServer, APriorComesBack) {
+  Replay();
+  const TemporaryFolder folder;
+  const std::string file = folder / "static.bt";
+  Ask({"export", "--out", file});
+  const json before = Ask({"status"});
+  Ask({"reset"});
+  EXPECT_EQ(Ask({"status"})["static_observed_voxels"], 0);
+  Ask({"load-prior", file});
+  EXPECT_EQ(Ask({"status"})["static_observed_voxels"], before["static_observed_voxels"]);
+}
+
+TEST_F(CliServer, ABrokenPriorIsNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write("broken.bt", "no map");
+  const Finished dut = Clearway({"load-prior", file});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("broken.bt"));
+}
+
+TEST_F(CliServer, ShowsLimitsAndParameters) {
+  const json info = Ask({"server-info"});
+  EXPECT_GT(info["limits"]["max_points_per_frame"], 0);
+  EXPECT_EQ(info["params"]["resolution_m"], 0.1);
+  EXPECT_THAT(Clearway({"server-info"}).out, HasSubstr("max_points_per_frame"));
+}
+
+}  // namespace
+}  // namespace clearway

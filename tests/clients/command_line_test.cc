@@ -1,0 +1,185 @@
+// The tool as a program, without a server: help, usage errors, files.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "clients/subprocess.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+Finished Clearway(std::vector<std::string> arguments, const std::string& input = "") {
+  arguments.insert(arguments.begin(), CLEARWAY_BINARY);
+  return RunProgram(arguments, input);
+}
+
+std::vector<std::string> Commands() {
+  return {"simulate", "info",   "replay",     "status", "objects",    "occupancy",
+          "check",    "export", "load-prior", "reset",  "server-info"};
+}
+
+TEST(CommandLine, Empty) {
+  const Finished dut = Clearway({});
+  EXPECT_EQ(dut.exit_code, 2);
+  EXPECT_THAT(dut.err, StartsWith("clearway: A subcommand is required"));
+  EXPECT_THAT(dut.out, IsEmpty());
+}
+
+TEST(CommandLine, HelpNamesEveryCommand) {
+  const Finished dut = Clearway({"--help"});
+  EXPECT_EQ(dut.exit_code, 0);
+  for (const std::string& command : Commands()) EXPECT_THAT(dut.out, HasSubstr("\n  " + command));
+}
+
+TEST(CommandLine, EveryCommandShowsAnExampleAndHasJson) {
+  for (const std::string& command : Commands()) {
+    const Finished dut = Clearway({command, "--help"});
+    EXPECT_EQ(dut.exit_code, 0) << command;
+    EXPECT_THAT(dut.out, HasSubstr("clearway " + command + " "));
+    EXPECT_THAT(dut.out, HasSubstr("Example"));
+    EXPECT_THAT(dut.out, HasSubstr("--json"));
+  }
+}
+
+TEST(CommandLine, NoLineOfHelpIsWiderThanATerminal) {
+  for (const std::string& command : Commands()) {
+    std::istringstream help(Clearway({command, "--help"}).out);
+    for (std::string line; std::getline(help, line);) EXPECT_LE(line.size(), 100u) << line;
+  }
+}
+
+TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"fly"}, "fly"},
+      {{"status", "--fast"}, "--fast"},
+      {{"replay"}, "source"},
+      {{"simulate", "small", "--out", "x", "--noise", "loud"}, "--noise"},
+      {{"occupancy", "--at", "1,2"}, "--at"},
+      {{"occupancy", "--at", "1,2,3", "--time", "soon"}, "--time"},
+      {{"occupancy"}, "--slice"},
+      {{"occupancy", "--at", "1,2,3", "--slice", "1"}, "--slice"},
+      {{"check", "--state", "0,0,0,0"}, "--robot"},
+      {{"check", "--robot", "box:1,1,1"}, "--state"},
+      {{"check", "--robot", "box:1,1", "--state", "0,0,0,0"}, "--robot"},
+      {{"check", "--robot", "box:1,1,1", "--state", "0,0,0,0", "--unknown", "2"}, "--unknown"},
+      {{"check", "--robot", "box:1,1,1", "--state", "0,0,0,0", "--allow", "arm:0"}, "--allow"},
+      {{"export", "--what", "all", "--out", "m.bt"}, "--what"},
+      {{"export", "--out", "map"}, "--format"},
+      {{"load-prior", "map.ply"}, ".bt"},
+  };
+  for (const auto& [arguments, named] : cases) {
+    const Finished dut = Clearway(arguments);
+    EXPECT_EQ(dut.exit_code, 2) << dut.err;
+    EXPECT_THAT(dut.err, StartsWith("clearway: "));
+    EXPECT_THAT(dut.err, HasSubstr(named));
+    EXPECT_THAT(dut.out, IsEmpty());
+  }
+}
+
+TEST(CommandLine, SaysThatNoServerAnswers) {
+  // Port 1 is nobody's.
+  const Finished dut = Clearway({"status", "--server", "127.0.0.1:1", "--timeout", "1"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, StartsWith("clearway: no server answers at 127.0.0.1:1"));
+  EXPECT_THAT(dut.err, HasSubstr("clearway-server"));
+}
+
+TEST(CommandLine, SimulatesAndListsARecording) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "small.cwr";
+  const Finished written =
+      Clearway({"simulate", "small", "--out", file, "--frames", "4", "--seed", "3", "--json"});
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  const auto summary = nlohmann::json::parse(written.out);
+  EXPECT_EQ(summary["frames"], 4);
+  EXPECT_GT(summary["points"], 100);
+
+  const Finished listed = Clearway({"info", file, "--json"});
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  const auto info = nlohmann::json::parse(listed.out);
+  EXPECT_EQ(info["kind"], "recording");
+  EXPECT_EQ(info["frames"], 4);
+  EXPECT_EQ(info["points"], summary["points"]);
+  EXPECT_THAT(Clearway({"info", file}).out, HasSubstr("frames      4 over"));
+}
+
+TEST(CommandLine, NeverReplacesARecordingUnasked) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write("small.cwr", "mine");
+  const Finished dut = Clearway({"simulate", "small", "--out", file, "--frames", "2"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("exists; --force replaces it"));
+  EXPECT_EQ(BytesOf(file), "mine");
+  EXPECT_EQ(Clearway({"simulate", "small", "--out", file, "--frames", "2", "--force"}).exit_code,
+            0);
+}
+
+TEST(CommandLine, NoiseChangesARecordingAndTheSeedFixesIt) {
+  const TemporaryFolder folder;
+  const auto simulate = [&folder](const std::string& name, const std::string& seed) {
+    Clearway({"simulate", "small", "-o", folder / name, "--frames", "3", "--noise", "table1",
+              "--seed", seed});
+    return BytesOf(folder / name);
+  };
+  const std::string first = simulate("a", "5");
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(first, simulate("b", "5"));
+  EXPECT_NE(first, simulate("c", "6"));
+}
+
+TEST(CommandLine, InfoTellsWhatASimulationHolds) {
+  const Finished dut = Clearway({"info", "sim:crossing", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto info = nlohmann::json::parse(dut.out);
+  EXPECT_EQ(info["kind"], "simulation");
+  EXPECT_GT(info["objects"].size(), 1u);
+}
+
+TEST(CommandLine, AnUnknownScenarioListsTheKnownOnes) {
+  const Finished dut = Clearway({"info", "sim:moon"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("crossing"));
+}
+
+TEST(CommandLine, NamesABadFile) {
+  const TemporaryFolder folder;
+  for (const char* name : {"broken.cwr", "broken.bt", "broken.ot"}) {
+    const std::string file = folder.Write(name, "not a file of this kind");
+    const Finished dut = Clearway({"info", file});
+    EXPECT_EQ(dut.exit_code, 1) << name;
+    EXPECT_THAT(dut.err, HasSubstr(name));
+  }
+  const Finished missing = Clearway({"info", folder / "none.cwr"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("none.cwr"));
+  EXPECT_EQ(Clearway({"info", folder.path()}).exit_code, 1);
+}
+
+TEST(CommandLine, ReplayRefusesAMap) {
+  const Finished dut = Clearway({"replay", "map.bt"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("load-prior"));
+}
+
+TEST(CommandLine, NamesTheFieldOfABrokenRobot) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write("robot.json", R"({"name": "r", "links": [{}]})");
+  const Finished dut = Clearway({"check", "--robot", file, "--state", "0,0,0,0"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("robot.json: links[0].name: missing"));
+}
+
+TEST(CommandLine, ReadsStatesFromStandardInput) {
+  const Finished dut =
+      Clearway({"check", "--robot", "box:1,1,1", "--states", "-"}, "x,y,z,yaw\n1,2,three,4\n");
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("stdin, line 2, column z"));
+}
+
+}  // namespace
+}  // namespace clearway
