@@ -8,21 +8,9 @@
 
 #include "clearway/client/connection.h"
 #include "clearway/scene/frame.h"
-#include "clearway/scene/scene_builder.h"
+#include "clearway/wire/push_ack.h"
 
 namespace clearway {
-
-// How far a frame has come.
-enum class AckLevel { kAccepted = 1, kApplied = 2, kDurable = 3 };
-
-// The server's answer to a frame.
-struct PushAck {
-  std::uint64_t version = 0;  // once applied, the first version with the frame in it
-  Time stamp;                 // of that version
-  AckLevel reached = AckLevel::kAccepted;
-  FrameReport report;            // once applied
-  bool repeated_answer = false;  // the remembered answer to an earlier push of the same frame
-};
 
 // Pushes frames, one at a time or as a stream. Pushing is idempotent: (sensor_id, sequence) names a
 // frame, so that a retry after UNAVAILABLE never applies it twice. Push may be called from any
