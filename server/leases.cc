@@ -16,8 +16,8 @@ std::string NewId() {
 }
 
 absl::Status GoneError(const std::string& id) {
-  return WithReason(absl::FailedPreconditionError(absl::StrCat(
-                        "lease_id: lease ", id.substr(0, 64), " has ended or never was")),
+  return WithReason(absl::FailedPreconditionError(absl::StrCat("lease_id: lease ", id.substr(0, 64),
+                                                               " has ended or never was")),
                     "LEASE_GONE");
 }
 

@@ -36,7 +36,8 @@ absl::StatusOr<RayAnswers> AskRays(const SceneSnapshot& scene,
                                    std::span<const Time> times, double max_range_m,
                                    const Gone& gone);
 
-// NOT_FOUND for an unknown id; ids empty: all objects. RESOURCE_EXHAUSTED for more than `max_poses`.
+// NOT_FOUND for an unknown id; ids empty: all objects. RESOURCE_EXHAUSTED for more than
+// `max_poses`.
 absl::StatusOr<PredictedPoses> AskPoses(const SceneSnapshot& scene, std::span<const ObjectId> ids,
                                         std::span<const Time> times, std::uint64_t max_poses);
 

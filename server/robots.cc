@@ -26,10 +26,9 @@ absl::StatusOr<std::shared_ptr<const Robot>> Robots::Find(const std::string& id)
   const auto found = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const KnownRobot& known) { return known.id == id; });
   if (found == robots_.end()) {
-    return WithReason(
-        absl::NotFoundError(absl::StrCat("robot_id: no robot \"", id.substr(0, 64),
-                                         "\" is registered, or it was forgotten")),
-        "UNKNOWN_ROBOT");
+    return WithReason(absl::NotFoundError(absl::StrCat("robot_id: no robot \"", id.substr(0, 64),
+                                                       "\" is registered, or it was forgotten")),
+                      "UNKNOWN_ROBOT");
   }
   robots_.splice(robots_.begin(), robots_, found);
   return found->robot;
@@ -38,10 +37,9 @@ absl::StatusOr<std::shared_ptr<const Robot>> Robots::Find(const std::string& id)
 std::shared_ptr<const SceneChecker> Robots::FindChecker(const std::string& id,
                                                         const ScenePtr& scene) {
   std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(checkers_.begin(), checkers_.end(), [&](const KnownChecker& known) {
-        return known.scene == scene && known.id == id;
-      });
+  const auto found = std::find_if(
+      checkers_.begin(), checkers_.end(),
+      [&](const KnownChecker& known) { return known.scene == scene && known.id == id; });
   if (found == checkers_.end()) return nullptr;
   checkers_.splice(checkers_.begin(), checkers_, found);
   return found->checker;
