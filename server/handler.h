@@ -20,6 +20,8 @@ inline Gone GoneOf(const grpc::ServerContext* context) {
   return [context] { return context->IsCancelled(); };
 }
 
+absl::Status InternalFault(const char* name, const std::exception& exception);
+
 // Runs body() -> absl::Status as one call of at most max_calls, and keeps third parties' exceptions
 // from the transport: they are INTERNAL, and never the client's doing.
 template <class Body>
@@ -32,7 +34,6 @@ grpc::Status Handle(ServerCore& core, const char* name, Body&& body) {
     return ToGrpc(InternalFault(name, e));
   }
 }
-absl::Status InternalFault(const char* name, const std::exception& exception);
 
 // Handle for a query: body(scene, gone) -> absl::Status on the version that the request asks for.
 template <class Request, class Body>

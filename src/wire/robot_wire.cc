@@ -27,12 +27,8 @@ struct ShapeWriter {
     proto->mutable_cylinder()->set_radius_m(s.radius_m);
     proto->mutable_cylinder()->set_length_m(s.length_m);
   }
-  void operator()(const ConvexPolytope& s) const {
-    WriteMesh(*s.mesh, proto->mutable_convex()->mutable_mesh());
-  }
-  void operator()(const TriangleMesh& s) const {
-    WriteMesh(*s.mesh, proto->mutable_mesh()->mutable_mesh());
-  }
+  void operator()(const ConvexPolytope& s) const { WriteMesh(*s.mesh, proto->mutable_convex()); }
+  void operator()(const TriangleMesh& s) const { WriteMesh(*s.mesh, proto->mutable_mesh()); }
 };
 
 std::shared_ptr<const Mesh> ReadMesh(const std::string& field, const v1::Mesh& proto,
@@ -61,9 +57,9 @@ Shape ReadShape(const std::string& field, const v1::LinkShape& proto, FieldReade
     case v1::LinkShape::kCylinder:
       return Cylinder{proto.cylinder().radius_m(), proto.cylinder().length_m()};
     case v1::LinkShape::kConvex:
-      return ConvexPolytope{ReadMesh(field + ".convex.mesh", proto.convex().mesh(), read)};
+      return ConvexPolytope{ReadMesh(field + ".convex", proto.convex(), read)};
     case v1::LinkShape::kMesh:
-      return TriangleMesh{ReadMesh(field + ".mesh.mesh", proto.mesh().mesh(), read)};
+      return TriangleMesh{ReadMesh(field + ".mesh", proto.mesh(), read)};
     case v1::LinkShape::SHAPE_NOT_SET:
       break;
   }
@@ -75,7 +71,7 @@ std::uint64_t TriangleCount(const v1::Robot& proto) {
   std::uint64_t corners = 0;
   for (const v1::Link& link : proto.links()) {
     for (const v1::LinkShape& shape : link.shapes()) {
-      corners += shape.mesh().mesh().triangles_size() + shape.convex().mesh().triangles_size();
+      corners += shape.mesh().triangles_size() + shape.convex().triangles_size();
     }
   }
   return corners / 3;
