@@ -40,24 +40,25 @@ grpc::Status ObjectHandlers::GetObject(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
                                           const v1::PredictPosesRequest* request,
                                           v1::PredictPosesResponse* response) {
-  return HandleQuery(core_, "PredictPoses", context, *request,
-                     [&](const SceneSnapshot& scene, const Gone&) -> absl::Status {
-                       FieldReader read;
-                       const std::uint64_t limit = core_.config.limits.max_points_per_query;
-                       read.AtMost("times_ns", request->times_ns_size(), limit);
-                       read.AtMost("object_ids", request->object_ids_size(), limit);
-                       read.Require(!request->times_ns().empty(), "times_ns", "is empty");
-                       if (!read.ok()) return read.status();
-                       const std::vector<Time> times =
-                           read.Times("times_ns", request->times_ns(), request->times_ns_size());
-                       if (!read.ok()) return read.status();
-                       absl::StatusOr<PredictedPoses> poses = AskPoses(
-                           scene, {request->object_ids().begin(), request->object_ids().end()},
-                           times, limit);
-                       if (!poses.ok()) return poses.status();
-                       Write(*poses, response);
-                       return absl::OkStatus();
-                     });
+  return HandleQuery(
+      core_, "PredictPoses", context, *request,
+      [&](const SceneSnapshot& scene, const Gone&) -> absl::Status {
+        FieldReader read;
+        const std::uint64_t limit = core_.config.limits.max_points_per_query;
+        read.AtMost("times_ns", request->times_ns_size(), limit);
+        read.AtMost("object_ids", request->object_ids_size(), limit);
+        read.Require(!request->times_ns().empty(), "times_ns", "is empty");
+        if (!read.ok()) return read.status();
+        const std::vector<Time> times =
+            read.Times("times_ns", request->times_ns(), request->times_ns_size());
+        if (!read.ok()) return read.status();
+        absl::StatusOr<PredictedPoses> poses =
+            AskPoses(scene, std::span(request->object_ids().data(), request->object_ids().size()),
+                     times, limit);
+        if (!poses.ok()) return poses.status();
+        Write(*poses, response);
+        return absl::OkStatus();
+      });
 }
 
 }  // namespace clearway

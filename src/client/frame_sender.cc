@@ -99,6 +99,8 @@ struct FrameSender::Impl {
 FrameSender::FrameSender(std::shared_ptr<Connection> connection)
     : impl_(std::make_unique<Impl>(Impl{std::move(connection), nullptr})) {}
 FrameSender::~FrameSender() = default;
+FrameSender::FrameSender(FrameSender&&) noexcept = default;
+FrameSender& FrameSender::operator=(FrameSender&&) noexcept = default;
 
 absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, AckLevel wait_for) {
   v1::PushFrameRequest request;

@@ -19,6 +19,8 @@ class FrameSender {
  public:
   explicit FrameSender(std::shared_ptr<Connection> connection);
   ~FrameSender();  // abandons a stream that was not finished
+  FrameSender(FrameSender&&) noexcept;
+  FrameSender& operator=(FrameSender&&) noexcept;
 
   // Sends one frame and waits for `wait_for`.
   absl::StatusOr<PushAck> Push(const Frame& frame, AckLevel wait_for = AckLevel::kApplied);
