@@ -13,10 +13,11 @@ if(CLEARWAY_BUILD_TESTS)
     <map> <memory> <optional> <random> <set> <string> <vector> <absl/status/statusor.h>)
 endif()
 
-# clearway_layer(<name> SOURCES ... PUBLIC ... PRIVATE ...): one static library `clearway_<name>` (alias clearway::<name>)
-# of src/<name>, with public headers in include/clearway/<name>.
+# clearway_layer(<name> SOURCES ... PUBLIC ... PRIVATE ... [OWN_PCH]): one static library `clearway_<name>` (alias
+# clearway::<name>) of src/<name>, with public headers in include/clearway/<name>. OWN_PCH: the caller precompiles its own
+# headers.
 function(clearway_layer name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "OWN_PCH" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(clearway_${name} STATIC ${ARG_SOURCES})
   add_library(clearway::${name} ALIAS clearway_${name})
   set_target_properties(clearway_${name} PROPERTIES EXPORT_NAME ${name})
@@ -26,7 +27,9 @@ function(clearway_layer name)
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(clearway_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
     $<BUILD_INTERFACE:clearway_warnings>)
-  target_precompile_headers(clearway_${name} REUSE_FROM clearway_pch)
+  if(NOT ARG_OWN_PCH)
+    target_precompile_headers(clearway_${name} REUSE_FROM clearway_pch)
+  endif()
   install(TARGETS clearway_${name} EXPORT clearwayTargets)
 endfunction()
 

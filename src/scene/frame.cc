@@ -30,7 +30,7 @@ absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   const std::size_t points = frame.points_S.size();
   if (points > limits.max_points) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("points: ", points, " points; the limit is ", limits.max_points));
+        absl::StrCat("points_m: ", points, " points; the limit is ", limits.max_points));
   }
   if (frame.motions.size() + frame.poses.size() > limits.max_objects) {
     return absl::ResourceExhaustedError(
@@ -43,7 +43,7 @@ absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   };
   if (auto status = check("labels", frame.labels.size(), false); !status.ok()) return status;
   if (auto status = check("no_return", frame.no_return.size(), true); !status.ok()) return status;
-  return check("origins", frame.origins_S.size(), true);
+  return check("origins_m", frame.origins_S.size(), true);
 }
 
 absl::Status CheckLabels(const Frame& frame) {
@@ -103,7 +103,7 @@ absl::Status ValidatePose(const std::string& field, const Pose& pose, double max
   const double largest_m = pose.translation.cwiseAbs().maxCoeff();
   if (largest_m > max_coordinate_m) {
     return Invalid(
-        absl::StrCat(field, ".translation"),
+        absl::StrCat(field, ".translation_m"),
         absl::StrCat("reaches ", largest_m, " m; the limit is ", max_coordinate_m, " m"));
   }
   return absl::OkStatus();

@@ -102,7 +102,7 @@ absl::Status SceneBuilder::CheckFits(const Frame& frame) const {
   const VoxelGrid& grid = scene_.static_map_W.grid();
   if (!grid.Addressable(frame.T_W_S.translation)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("world_from_sensor.translation: outside the addressable space of ",
+        absl::StrCat("world_from_sensor.translation_m: outside the addressable space of ",
                      grid.limit_m(), " m about the origin"));
   }
   return absl::OkStatus();

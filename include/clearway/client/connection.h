@@ -1,0 +1,49 @@
+// A connection to a Clearway server.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "clearway/base/time.h"
+#include "clearway/wire/server_info.h"
+
+namespace clearway {
+
+// How calls behave. A plain value.
+struct ConnectionOptions {
+  // Of every call but the long streams.
+  Duration deadline = std::chrono::seconds(10);
+  // How long a call that ends with UNAVAILABLE (and no other) is tried again, with growing pauses;
+  // zero: once. Never beyond `deadline`.
+  Duration retry_for = std::chrono::seconds(5);
+  // TLS with these root certificates (a PEM file); empty: plain text, for loopback and Unix
+  // sockets.
+  std::string tls_root_certificates_file;
+};
+
+// A channel to one server, shared by everything that talks to it. Any thread may use it; everything
+// made from it keeps it alive.
+class Connection {
+ public:
+  // `address` as gRPC writes it: "127.0.0.1:50151", "unix:/run/clearway.sock". Connects and reads
+  // the server's information: UNAVAILABLE if nobody answers within the deadline.
+  static absl::StatusOr<std::shared_ptr<Connection>> Open(const std::string& address,
+                                                          const ConnectionOptions& options = {});
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  const std::string& address() const;
+  const ConnectionOptions& options() const;
+  const ServerInfo& server() const;  // as of Open
+
+  struct Impl;  // the gRPC channel and stubs; private to the layer
+  Impl& impl() const { return *impl_; }
+
+ private:
+  explicit Connection(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clearway

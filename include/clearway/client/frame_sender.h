@@ -1,0 +1,49 @@
+// Frames to a server.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "clearway/client/connection.h"
+#include "clearway/scene/frame.h"
+#include "clearway/wire/push_ack.h"
+
+namespace clearway {
+
+// Pushes frames, one at a time or as a stream. Pushing is idempotent: (sensor_id, sequence) names a
+// frame, so that a retry after UNAVAILABLE never applies it twice. Push may be called from any
+// thread; the stream's methods from one thread at a time.
+class FrameSender {
+ public:
+  explicit FrameSender(std::shared_ptr<Connection> connection);
+  ~FrameSender();  // abandons a stream that was not finished
+  FrameSender(FrameSender&&) noexcept;
+  FrameSender& operator=(FrameSender&&) noexcept;
+
+  // Sends one frame and waits for `wait_for`.
+  absl::StatusOr<PushAck> Push(const Frame& frame, AckLevel wait_for = AckLevel::kApplied);
+
+  // What became of one frame of the stream: its names, and the answer or the refusal.
+  using OnAck = std::function<void(const std::string& sensor_id, std::uint64_t sequence,
+                                   const absl::StatusOr<PushAck>& answer)>;
+
+  // Opens a stream. `on_ack` is called once per answered frame, in the order sent, from a thread of
+  // the sender's own.
+  absl::Status OpenStream(OnAck on_ack, AckLevel wait_for = AckLevel::kApplied);
+  // Sends the next frame; waits while the window (the server's max_frames_in_flight) is full. An
+  // error means that the stream is broken: CloseStream says why.
+  absl::Status Send(const Frame& frame);
+  // Waits for all answers and ends the stream. A frame that was sent but never answered is an
+  // error.
+  absl::Status CloseStream();
+
+  std::size_t unanswered() const;  // frames sent without an answer yet
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,46 @@
+// The state checker whose scene is on a server.
+#pragma once
+
+#include <memory>
+
+#include "clearway/client/connection.h"
+#include "clearway/collision/state_checker.h"
+
+namespace clearway {
+
+// A plain value.
+struct RemoteCheckerOptions {
+  // Of the lease on the pinned version; renewed in the background well before it ends.
+  Duration lease_ttl = std::chrono::seconds(30);
+  // Pin at least this version (read your own writes).
+  std::uint64_t min_version = 0;
+};
+
+// Checks states over the network, pinned to one scene version by a lease until it is destroyed. Any
+// number of threads may call Check. Batches above the server's limit are sent in pieces; every
+// piece is answered on the same version. Check fails with FAILED_PRECONDITION once the lease is
+// lost (the server was unreachable for longer than the time to live, or restarted).
+class RemoteChecker : public StateChecker {
+ public:
+  // Registers the robot (by the hash of its content) and pins the newest version.
+  static absl::StatusOr<std::unique_ptr<RemoteChecker>> Pin(
+      std::shared_ptr<Connection> connection, Robot robot,
+      const RemoteCheckerOptions& options = {});
+  ~RemoteChecker() override;  // releases the lease
+
+  absl::StatusOr<CheckReply> Check(const StateBatch& states,
+                                   const CheckOptions& options) const override;
+  const Robot& robot() const override;
+  std::uint64_t version() const override;
+  Time stamp() const override;
+
+  // Of the pinned version, for queries beside the checks (SceneQuery::lease_id).
+  const std::string& lease_id() const;
+
+ private:
+  struct Impl;
+  explicit RemoteChecker(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clearway

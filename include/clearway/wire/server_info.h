@@ -1,0 +1,63 @@
+// What a server says of itself.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "clearway/base/time.h"
+#include "clearway/scene/scene_params.h"
+
+namespace clearway {
+
+// What a server refuses to exceed (RESOURCE_EXHAUSTED); read with GetServerInfo. A plain value.
+struct ServerLimits {
+  std::uint64_t max_message_bytes = 64 << 20;
+  std::uint64_t max_points_per_frame = 2'000'000;
+  std::uint64_t max_objects = 4'096;
+  double max_coordinate_m = 100'000;
+  std::uint64_t max_states_per_batch = 20'000;
+  std::uint64_t max_points_per_query = 4'000'000;  // points, cells, rays or poses
+  std::uint64_t max_robots = 64;
+  std::uint64_t max_links_per_robot = 256;
+  std::uint64_t max_triangles_per_robot = 500'000;
+  std::uint64_t max_leases = 256;
+  double max_lease_ttl_s = 600;
+  std::uint64_t max_follow_streams = 128;
+  std::uint64_t max_push_streams = 128;
+  std::uint64_t max_frames_in_flight = 8;  // of one stream
+  std::uint64_t max_queued_frames = 32;
+  std::uint64_t max_remembered_answers = 10'000;
+  double max_version_wait_s = 10;
+  std::uint64_t max_prior_bytes = 1 << 30;
+  std::uint64_t max_boxes = 10'000;  // keep-out boxes, declared-free boxes, contacts, ignored ids
+  std::uint64_t max_calls = 512;     // at once
+  bool operator==(const ServerLimits&) const = default;
+};
+
+// The first part of every answer: the version it was computed on.
+struct Versioned {
+  std::uint64_t version = 0;
+  Time stamp;  // of the version's newest frame
+};
+
+struct ServerInfo : Versioned {
+  std::string software_version;
+  std::string instance;  // differs for each start of a server
+  ServerLimits limits;
+  SceneParams params;
+};
+
+struct ServerStatus : Versioned {
+  std::string scene_hash;  // if asked for
+  double uptime_s = 0;
+  bool draining = false;
+  std::uint64_t frames_applied = 0, frames_refused = 0;
+  std::uint64_t points_used = 0, points_not_finite = 0;
+  std::uint64_t queued_frames = 0;
+  std::uint64_t objects = 0;
+  std::uint64_t static_observed_voxels = 0, static_occupied_voxels = 0;
+  Aabb static_box_W;  // around the observed blocks
+  std::uint64_t robots = 0, leases = 0, follow_streams = 0, push_streams = 0;
+};
+
+}  // namespace clearway

@@ -1,0 +1,61 @@
+// What a server is told to be: flags over environment over a TOML file over defaults.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/scene/scene_params.h"
+#include "clearway/wire/server_info.h"
+
+namespace clearway {
+
+// A plain value; Validate says whether it makes sense.
+struct ServerConfig {
+  // "127.0.0.1:50151" (port 0: any free one) or "unix:/path". Anything but loopback and Unix
+  // sockets needs TLS.
+  std::string listen = "127.0.0.1:50151";
+  std::string tls_cert, tls_key;  // PEM files
+  std::string log_level = "info";
+  int threads = 0;                   // that apply frames; 0: as many as the machine has
+  std::uint64_t kept_versions = 16;  // beside the newest, for mirrors that fell behind
+  SceneParams scene;
+  ServerLimits limits;
+};
+
+// INVALID_ARGUMENT naming the key, the value and the limit.
+absl::Status Validate(const ServerConfig& config);
+
+// Whether only this machine can connect to the address.
+bool IsLocalAddress(const std::string& listen);
+
+// One key of the configuration: "scene.resolution_m" in the file, --scene-resolution-m as a flag,
+// CLEARWAY_SCENE_RESOLUTION_M in the environment.
+struct Setting {
+  std::string key;
+  std::string help;
+  std::function<absl::Status(ServerConfig&, const std::string&)> set;
+  std::function<std::string(const ServerConfig&)> get;  // as TOML
+
+  std::string FlagName() const;
+  std::string EnvironmentName() const;
+};
+const std::vector<Setting>& Settings();
+
+// What the command line asked for.
+struct CommandLine {
+  ServerConfig config;
+  bool print_config = false;  // and then end
+  std::string help;           // not empty: print this and end
+};
+
+// `environment`: "NAME=value" each. Unknown keys are errors wherever they come from; in the
+// environment, CLEARWAY_CONFIG names the file, and the few names of the clients are left alone.
+absl::StatusOr<CommandLine> ReadCommandLine(const std::vector<std::string>& arguments,
+                                            const std::vector<std::string>& environment);
+
+// The whole configuration as a TOML file that would make it again.
+std::string ToToml(const ServerConfig& config);
+
+}  // namespace clearway

@@ -1,0 +1,78 @@
+#include "server/core.h"
+
+#include <random>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "wire/scene_wire.h"
+#include "wire/status.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kMaxCheckers = 16;
+
+std::string NewInstance() {
+  std::random_device random;
+  return absl::StrFormat("%08x%08x", random(), random());
+}
+
+Ingestor::Options IngestorOptions(const ServerConfig& config) {
+  Ingestor::Options options;
+  options.scene = config.scene;
+  options.frames = {config.limits.max_points_per_frame, config.limits.max_objects,
+                    config.limits.max_coordinate_m};
+  options.max_queued = config.limits.max_queued_frames;
+  options.max_remembered = config.limits.max_remembered_answers;
+  const int machine = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = config.threads > 0 ? config.threads : machine;
+  return options;
+}
+
+Leases::Options LeaseOptions(const ServerConfig& config) {
+  Leases::Options options;
+  options.max_leases = config.limits.max_leases;
+  options.max_ttl = FromSeconds(config.limits.max_lease_ttl_s);
+  return options;
+}
+
+}  // namespace
+
+ServerCore::ServerCore(const ServerConfig& server_config)
+    : config(server_config),
+      instance(NewInstance()),
+      versions(config.kept_versions),
+      leases(LeaseOptions(config)),
+      robots(config.limits.max_robots, kMaxCheckers),
+      ingestor(IngestorOptions(config), versions) {}
+
+absl::StatusOr<ScenePtr> ServerCore::SceneFor(const v1::SceneSelector& selector, const Gone& gone) {
+  const SceneQuery query = ReadQuery(selector);
+  const auto too_new = [&](std::uint64_t version) {
+    return WithReason(
+        absl::FailedPreconditionError(absl::StrCat("selector.min_version: is ", query.min_version,
+                                                   "; the scene has version ", version)),
+        "VERSION_NOT_REACHED");
+  };
+  if (!query.lease_id.empty()) {
+    absl::StatusOr<ScenePtr> held = leases.Find(query.lease_id);
+    if (held.ok() && (*held)->version < query.min_version) return too_new((*held)->version);
+    return held;
+  }
+  const Duration patience = FromSeconds(config.limits.max_version_wait_s);
+  ScenePtr scene = versions.WaitFor(query.min_version, patience, gone);
+  if (scene != nullptr) return scene;
+  if (gone()) return absl::CancelledError("the client has gone");
+  scene = versions.Newest();  // while draining nobody waits
+  if (scene->version >= query.min_version) return scene;
+  return too_new(scene->version);
+}
+
+absl::Status TooMany(const std::string& what, std::uint64_t limit) {
+  return WithReason(absl::ResourceExhaustedError(
+                        absl::StrCat("too many ", what, " at once; the limit is ", limit)),
+                    "TOO_MANY");
+}
+
+}  // namespace clearway

@@ -1,0 +1,101 @@
+// Everything that changes the scene: a bounded queue and the one writer thread.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "absl/status/statusor.h"
+#include "clearway/base/thread_pool.h"
+#include "clearway/scene/scene_builder.h"
+#include "clearway/wire/push_ack.h"
+#include "server/versions.h"
+
+namespace clearway {
+
+// What the ingestor has done so far.
+struct IngestCounts {
+  std::uint64_t frames_applied = 0, frames_refused = 0;
+  std::uint64_t points_used = 0, points_not_finite = 0;
+  std::uint64_t queued = 0;
+};
+
+// Applies frames and other changes in the order they were accepted, and publishes a version after
+// each. Any thread may call any method. A frame is named by (sensor_id, sequence): a repeat gets
+// the first one's answer, refusals by the scene included, as long as the answer is remembered.
+class Ingestor {
+ public:
+  using Answer = absl::StatusOr<PushAck>;
+  // An accepted frame; its answer comes when it was applied or refused.
+  struct Ticket {
+    std::shared_future<Answer> answer;
+    bool repeated = false;
+  };
+  using Change = std::function<absl::Status(SceneBuilder&)>;
+
+  struct Options {
+    SceneParams scene;
+    FrameLimits frames;
+    std::size_t max_queued = 32;
+    std::size_t max_remembered = 10'000;
+    int threads = 1;
+  };
+
+  // `versions` must outlive the ingestor. Publishes the empty scene.
+  Ingestor(const Options& options, Versions& versions);
+  ~Ingestor();  // drains
+
+  // RESOURCE_EXHAUSTED if the queue is full, UNAVAILABLE while draining.
+  absl::StatusOr<Ticket> Push(Frame frame);
+  // As Push, but waits for room in the queue; CANCELLED once `gone`.
+  absl::StatusOr<Ticket> PushWhenRoom(Frame frame, const Gone& gone);
+  // Queues a change beside the frames; `forget_answers` for one that begins the scene anew.
+  absl::StatusOr<Ticket> Apply(Change change, bool forget_answers = false);
+  // The answer; CANCELLED once `gone` (the frame is applied all the same).
+  static Answer Wait(const Ticket& ticket, const Gone& gone);
+
+  // Refuses what is new, finishes what was accepted, and ends the writer thread.
+  void Drain();
+  IngestCounts counts() const;
+
+ private:
+  using FrameName = std::pair<std::string, std::uint64_t>;
+  struct Job {
+    Change change;
+    bool is_frame = false;
+    PushAck ack;  // filled by `change`, then by the publication
+    std::promise<Answer> answer;
+  };
+
+  absl::StatusOr<Ticket> Enqueue(std::unique_lock<std::mutex>& lock, std::unique_ptr<Job> job);
+  std::unique_ptr<Job> JobOf(Frame frame);
+  std::optional<Ticket> Remembered(const FrameName& name) const;
+  void Remember(const FrameName& name, const Ticket& ticket);
+  absl::StatusOr<Ticket> PushLocked(std::unique_lock<std::mutex>& lock, Frame frame);
+  void Run();
+  Answer Do(Job& job);
+
+  const Options options_;
+  Versions& versions_;
+  ThreadPool pool_;
+  SceneBuilder builder_;  // the writer thread's alone
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::unique_ptr<Job>> queue_;
+  std::map<FrameName, Ticket> answers_;
+  std::deque<FrameName> answer_order_;  // oldest first
+  IngestCounts counts_;
+  bool draining_ = false;
+  std::thread writer_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,75 @@
+#include "server/leases.h"
+
+#include <random>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "wire/status.h"
+
+namespace clearway {
+namespace {
+
+// Not to be guessed: a lease is whoever's knows its id.
+std::string NewId() {
+  std::random_device random;
+  return absl::StrFormat("%08x%08x%08x%08x", random(), random(), random(), random());
+}
+
+absl::Status GoneError(const std::string& id) {
+  return WithReason(absl::FailedPreconditionError(absl::StrCat("lease_id: lease ", id.substr(0, 64),
+                                                               " has ended or never was")),
+                    "LEASE_GONE");
+}
+
+}  // namespace
+
+void Leases::DropEnded() {
+  const Clock::time_point now = options_.now();
+  std::erase_if(leases_, [&](const auto& entry) { return entry.second.end <= now; });
+}
+
+absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl) {
+  const Duration granted = std::min(ttl, options_.max_ttl);
+  std::lock_guard lock(mutex_);
+  DropEnded();
+  if (leases_.size() >= options_.max_leases) {
+    return WithReason(absl::ResourceExhaustedError(
+                          absl::StrCat("as many leases as allowed are held: ", leases_.size())),
+                      "TOO_MANY_LEASES");
+  }
+  const std::string id = NewId();
+  LeaseGrant grant{{scene->version, scene->stamp}, id, granted};
+  leases_[id] = {std::move(scene), options_.now() + granted};
+  return grant;
+}
+
+absl::StatusOr<LeaseGrant> Leases::Renew(const std::string& id, Duration ttl) {
+  const Duration granted = std::min(ttl, options_.max_ttl);
+  std::lock_guard lock(mutex_);
+  DropEnded();
+  const auto lease = leases_.find(id);
+  if (lease == leases_.end()) return GoneError(id);
+  lease->second.end = options_.now() + granted;
+  return LeaseGrant{{lease->second.scene->version, lease->second.scene->stamp}, id, granted};
+}
+
+absl::StatusOr<ScenePtr> Leases::Find(const std::string& id) {
+  std::lock_guard lock(mutex_);
+  DropEnded();
+  const auto lease = leases_.find(id);
+  if (lease == leases_.end()) return GoneError(id);
+  return lease->second.scene;
+}
+
+void Leases::Release(const std::string& id) {
+  std::lock_guard lock(mutex_);
+  leases_.erase(id);
+}
+
+std::size_t Leases::size() {
+  std::lock_guard lock(mutex_);
+  DropEnded();
+  return leases_.size();
+}
+
+}  // namespace clearway

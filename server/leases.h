@@ -1,0 +1,47 @@
+// Versions that clients hold while they plan on them.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "clearway/scene/scene_snapshot.h"
+#include "clearway/wire/answers.h"
+
+namespace clearway {
+
+// Leases with a time to live of this computer's clock. Any thread may call any method.
+class Leases {
+ public:
+  using Clock = std::chrono::steady_clock;
+  struct Options {
+    std::size_t max_leases = 256;
+    Duration max_ttl = std::chrono::minutes(10);
+    std::function<Clock::time_point()> now = Clock::now;
+  };
+  explicit Leases(Options options) : options_(std::move(options)) {}
+
+  // RESOURCE_EXHAUSTED when as many as allowed are held. Times to live are cut to the longest.
+  absl::StatusOr<LeaseGrant> Acquire(ScenePtr scene, Duration ttl);
+  // FAILED_PRECONDITION once the lease is gone.
+  absl::StatusOr<LeaseGrant> Renew(const std::string& id, Duration ttl);
+  absl::StatusOr<ScenePtr> Find(const std::string& id);
+  void Release(const std::string& id);
+  std::size_t size();
+
+ private:
+  struct Lease {
+    ScenePtr scene;
+    Clock::time_point end;
+  };
+  void DropEnded();  // with the lock held
+
+  const Options options_;
+  std::mutex mutex_;
+  std::map<std::string, Lease> leases_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,71 @@
+#include "server/robots.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "wire/status.h"
+
+namespace clearway {
+
+absl::StatusOr<std::string> Robots::Register(Robot robot) {
+  if (absl::Status status = Validate(robot); !status.ok()) {
+    return WithFieldPrefix("robot.", status);
+  }
+  const std::string id = RobotId(robot);
+  std::list<KnownRobot> entry;
+  entry.push_back({id, std::make_shared<const Robot>(std::move(robot))});
+  std::lock_guard lock(mutex_);
+  robots_.remove_if([&](const KnownRobot& known) { return known.id == id; });
+  robots_.splice(robots_.begin(), entry);
+  if (robots_.size() > max_robots_) robots_.pop_back();
+  return id;
+}
+
+absl::StatusOr<std::shared_ptr<const Robot>> Robots::Find(const std::string& id) {
+  std::lock_guard lock(mutex_);
+  const auto found = std::find_if(robots_.begin(), robots_.end(),
+                                  [&](const KnownRobot& known) { return known.id == id; });
+  if (found == robots_.end()) {
+    return WithReason(absl::NotFoundError(absl::StrCat("robot_id: no robot \"", id.substr(0, 64),
+                                                       "\" is registered, or it was forgotten")),
+                      "UNKNOWN_ROBOT");
+  }
+  robots_.splice(robots_.begin(), robots_, found);
+  return found->robot;
+}
+
+std::shared_ptr<const SceneChecker> Robots::FindChecker(const std::string& id,
+                                                        const ScenePtr& scene) {
+  std::lock_guard lock(mutex_);
+  const auto found = std::find_if(
+      checkers_.begin(), checkers_.end(),
+      [&](const KnownChecker& known) { return known.scene == scene && known.id == id; });
+  if (found == checkers_.end()) return nullptr;
+  checkers_.splice(checkers_.begin(), checkers_, found);
+  return found->checker;
+}
+
+absl::StatusOr<std::shared_ptr<const SceneChecker>> Robots::CheckerFor(const std::string& id,
+                                                                       const ScenePtr& scene) {
+  absl::StatusOr<std::shared_ptr<const Robot>> robot = Find(id);
+  if (!robot.ok()) return robot.status();
+  if (auto checker = FindChecker(id, scene)) return checker;
+  // Made without the lock, as it may take long; two calls may both make one, which is harmless.
+  std::list<KnownChecker> entry;
+  entry.push_back({id, scene, std::make_shared<const SceneChecker>(scene, **robot)});
+  auto checker = entry.front().checker;
+  std::list<KnownChecker> dropped;  // freed after the lock
+  std::lock_guard lock(mutex_);
+  checkers_.splice(checkers_.begin(), entry);
+  if (checkers_.size() > max_checkers_) {
+    dropped.splice(dropped.begin(), checkers_, std::prev(checkers_.end()));
+  }
+  return checker;
+}
+
+std::size_t Robots::size() const {
+  std::lock_guard lock(mutex_);
+  return robots_.size();
+}
+
+}  // namespace clearway

@@ -1,0 +1,48 @@
+// The robots that clients have registered, and their checkers.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "clearway/collision/scene_checker.h"
+
+namespace clearway {
+
+// Remembers robots by the hash of their content, and the checkers made last. Both are bounded: the
+// one used longest ago is forgotten. Any thread may call any method.
+class Robots {
+ public:
+  Robots(std::size_t max_robots, std::size_t max_checkers)
+      : max_robots_(max_robots), max_checkers_(max_checkers) {}
+
+  // INVALID_ARGUMENT for what Validate(robot) refuses.
+  absl::StatusOr<std::string> Register(Robot robot);
+  // NOT_FOUND for a robot that is not, or no longer, known.
+  absl::StatusOr<std::shared_ptr<const Robot>> Find(const std::string& id);
+  // The robot's checker on the scene.
+  absl::StatusOr<std::shared_ptr<const SceneChecker>> CheckerFor(const std::string& id,
+                                                                 const ScenePtr& scene);
+  std::size_t size() const;
+
+ private:
+  struct KnownRobot {
+    std::string id;
+    std::shared_ptr<const Robot> robot;
+  };
+  struct KnownChecker {
+    std::string id;
+    ScenePtr scene;  // held, so that its address stays its own
+    std::shared_ptr<const SceneChecker> checker;
+  };
+  std::shared_ptr<const SceneChecker> FindChecker(const std::string& id, const ScenePtr& scene);
+
+  const std::size_t max_robots_, max_checkers_;
+  mutable std::mutex mutex_;
+  std::list<KnownRobot> robots_;      // used last first
+  std::list<KnownChecker> checkers_;  // likewise
+};
+
+}  // namespace clearway

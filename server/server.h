@@ -1,0 +1,36 @@
+// The server: its core behind gRPC.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "server/config.h"
+
+namespace clearway {
+
+struct ServerCore;
+
+// A running server. Any thread may call any method; it ends with Drain or its destruction.
+class Server {
+ public:
+  // Listens and serves. `config` must pass Validate. ALREADY_EXISTS if the address is taken or
+  // cannot be bound, NOT_FOUND for certificates that cannot be read.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config);
+  ~Server();
+
+  // Where it listens, with the port that was chosen.
+  const std::string& address() const;
+  ServerCore& core();
+
+  // Turns health to NOT_SERVING, refuses new writes with UNAVAILABLE, applies what was accepted,
+  // answers the calls that are running, and ends the streams.
+  void Drain();
+
+ private:
+  struct Impl;
+  explicit Server(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clearway

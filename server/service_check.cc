@@ -1,0 +1,74 @@
+#include "server/handler.h"
+#include "server/services.h"
+#include "wire/check_wire.h"
+#include "wire/robot_wire.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kStatesPerLook = 64;  // between two looks at whether the client has gone
+
+// Checks the batch piece by piece, so that an abandoned call ends soon.
+absl::StatusOr<CheckReply> CheckInPieces(const SceneChecker& checker, const StateBatch& states,
+                                         const CheckOptions& options, const Gone& gone) {
+  const std::size_t links = checker.robot().links.size();
+  CheckReply reply{checker.version(), checker.stamp(), {}};
+  std::size_t begin = 0;
+  do {  // once for an empty batch too: the options may be wrong
+    if (gone()) return absl::CancelledError("the client has gone");
+    const std::size_t end = std::min(begin + kStatesPerLook, states.times.size());
+    const StateBatch piece{
+        {states.times.begin() + begin, states.times.begin() + end},
+        {states.T_W_L.begin() + begin * links, states.T_W_L.begin() + end * links}};
+    absl::StatusOr<CheckReply> part = checker.Check(piece, options);
+    if (!part.ok()) return part.status();
+    reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
+    begin = end;
+  } while (begin < states.times.size());
+  return reply;
+}
+
+}  // namespace
+
+grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext*,
+                                          const v1::RegisterRobotRequest* request,
+                                          v1::RegisterRobotResponse* response) {
+  return Handle(core_, "RegisterRobot", [&]() -> absl::Status {
+    if (!request->has_robot()) return FieldError("robot", "is missing");
+    absl::StatusOr<Robot> robot = ReadRobot("robot", request->robot(), core_.config.limits);
+    if (!robot.ok()) return robot.status();
+    absl::StatusOr<std::string> id = core_.robots.Register(*std::move(robot));
+    if (!id.ok()) return id.status();
+    response->set_robot_id(*id);
+    Write(VersionOf(*core_.versions.Newest()), response->mutable_scene());
+    return absl::OkStatus();
+  });
+}
+
+grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
+                                        const v1::CheckStatesRequest* request,
+                                        v1::CheckStatesResponse* response) {
+  return Handle(core_, "CheckStates", [&]() -> absl::Status {
+    const Gone gone = GoneOf(context);
+    absl::StatusOr<std::shared_ptr<const Robot>> robot = core_.robots.Find(request->robot_id());
+    if (!robot.ok()) return robot.status();
+    const ServerLimits& limits = core_.config.limits;
+    absl::StatusOr<CheckOptions> options = ReadCheckOptions("options", request->options(), limits);
+    if (!options.ok()) return options.status();
+    if (absl::Status status = Validate(*options, **robot); !status.ok()) {
+      return WithFieldPrefix("options.", status);
+    }
+    absl::StatusOr<StateBatch> states = ReadStates(*request, (*robot)->links.size(), limits);
+    if (!states.ok()) return states.status();
+    absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), gone);
+    if (!scene.ok()) return scene.status();
+    auto checker = core_.robots.CheckerFor(request->robot_id(), *scene);
+    if (!checker.ok()) return checker.status();
+    absl::StatusOr<CheckReply> reply = CheckInPieces(**checker, *states, *options, gone);
+    if (!reply.ok()) return reply.status();
+    Write(*reply, options->clearance_up_to_m.has_value(), response);
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace clearway

@@ -1,0 +1,171 @@
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "server/handler.h"
+#include "server/services.h"
+#include "wire/frame_wire.h"
+
+namespace clearway {
+namespace {
+
+struct CheckedFrame {
+  Frame frame;
+  AckLevel wait_for = AckLevel::kApplied;
+};
+
+// Of PushFrame and PushFrames alike.
+template <class Request>
+absl::StatusOr<CheckedFrame> ReadRequest(const ServerCore& core, const Request& request) {
+  if (core.draining) {
+    return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
+  }
+  absl::StatusOr<AckLevel> level = ReadAckLevel("wait_for", request.wait_for());
+  if (!level.ok()) return level.status();
+  if (*level == AckLevel::kDurable) {
+    return WithReason(absl::FailedPreconditionError(
+                          "wait_for: this server keeps no journal; APPLIED is the most it reaches"),
+                      "NO_JOURNAL");
+  }
+  if (!request.has_frame()) return FieldError("frame", "is missing");
+  const ServerLimits& limits = core.config.limits;
+  absl::StatusOr<Frame> frame =
+      ReadFrame("frame", request.frame(),
+                {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m});
+  if (!frame.ok()) return frame.status();
+  return CheckedFrame{*std::move(frame), *level};
+}
+
+// The answer at the level asked for.
+absl::StatusOr<PushAck> AnswerOf(const ServerCore& core, const Ingestor::Ticket& ticket,
+                                 AckLevel level, const Gone& gone) {
+  if (level == AckLevel::kAccepted) {
+    const ScenePtr scene = core.versions.Newest();
+    return PushAck{{scene->version, scene->stamp}, AckLevel::kAccepted, {}, ticket.repeated};
+  }
+  Ingestor::Answer answer = Ingestor::Wait(ticket, gone);
+  // What the scene refuses names a field of the frame.
+  if (!answer.ok()) return WithFieldPrefix("frame.", answer.status());
+  return answer;
+}
+
+// The answers that a push stream still owes, in order; written by a thread of its own, so that
+// reading goes on meanwhile, at most `window` frames ahead.
+class AnswerWriter {
+ public:
+  using Stream = grpc::ServerReaderWriter<v1::PushFramesResponse, v1::PushFramesRequest>;
+
+  AnswerWriter(const ServerCore& core, Stream& stream, std::size_t window, Gone gone)
+      : core_(core), stream_(stream), window_(window), gone_(std::move(gone)), thread_([this] {
+          Run();
+        }) {}
+
+  // Waits while the window is full.
+  void Owe(const v1::Frame& frame, AckLevel level, absl::StatusOr<Ingestor::Ticket> ticket) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return owed_.size() < window_; });
+    owed_.push_back({frame.sensor_id(), frame.sequence(), level, std::move(ticket)});
+    changed_.notify_all();
+  }
+
+  // Writes what is owed and ends.
+  void Finish() {
+    {
+      std::lock_guard lock(mutex_);
+      finishing_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+ private:
+  struct Owed {
+    std::string sensor_id;
+    std::uint64_t sequence = 0;
+    AckLevel level = AckLevel::kApplied;
+    absl::StatusOr<Ingestor::Ticket> ticket;
+  };
+
+  void Run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return finishing_ || !owed_.empty(); });
+      if (owed_.empty()) return;
+      const Owed owed = owed_.front();
+      lock.unlock();
+      stream_.Write(ResponseTo(owed));  // if the client has gone, so has the answer's reader
+      lock.lock();
+      owed_.pop_front();
+      changed_.notify_all();
+    }
+  }
+
+  v1::PushFramesResponse ResponseTo(const Owed& owed) const {
+    v1::PushFramesResponse response;
+    response.set_sensor_id(owed.sensor_id);
+    response.set_sequence(owed.sequence);
+    const absl::StatusOr<PushAck> answer =
+        owed.ticket.ok() ? AnswerOf(core_, *owed.ticket, owed.level, gone_) : owed.ticket.status();
+    if (answer.ok()) {
+      Write(*answer, response.mutable_ack());
+    } else {
+      *response.mutable_error() = ToProto(answer.status());
+    }
+    return response;
+  }
+
+  const ServerCore& core_;
+  Stream& stream_;
+  const std::size_t window_;
+  const Gone gone_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Owed> owed_;
+  bool finishing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace
+
+grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
+                                       const v1::PushFrameRequest* request,
+                                       v1::PushFrameResponse* response) {
+  return Handle(core_, "PushFrame", [&]() -> absl::Status {
+    absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, *request);
+    if (!checked.ok()) return checked.status();
+    absl::StatusOr<Ingestor::Ticket> ticket = core_.ingestor.Push(std::move(checked->frame));
+    if (!ticket.ok()) return ticket.status();
+    absl::StatusOr<PushAck> ack = AnswerOf(core_, *ticket, checked->wait_for, GoneOf(context));
+    if (!ack.ok()) return ack.status();
+    Write(*ack, response);
+    return absl::OkStatus();
+  });
+}
+
+grpc::Status IngestHandlers::PushFrames(
+    grpc::ServerContext* context,
+    grpc::ServerReaderWriter<v1::PushFramesResponse, v1::PushFramesRequest>* stream) {
+  return Handle(core_, "PushFrames", [&]() -> absl::Status {
+    const ServerLimits& limits = core_.config.limits;
+    const Slot slot(core_.push_streams, limits.max_push_streams);
+    if (!slot.ok()) return TooMany("push streams", limits.max_push_streams);
+    const Gone gone = GoneOf(context);
+    AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, gone);
+    v1::PushFramesRequest request;
+    while (stream->Read(&request)) {
+      absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, request);
+      if (checked.ok()) {
+        answers.Owe(request.frame(), checked->wait_for,
+                    core_.ingestor.PushWhenRoom(std::move(checked->frame), gone));
+      } else {
+        answers.Owe(request.frame(), AckLevel::kApplied, checked.status());
+      }
+    }
+    answers.Finish();
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace clearway

@@ -1,0 +1,167 @@
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/io/octomap_file.h"
+#include "server/handler.h"
+#include "server/map_export.h"
+#include "server/services.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kPieceBytes = 1 << 20;
+
+absl::StatusOr<ExportTarget> ReadTarget(const v1::ExportMapRequest& request) {
+  FieldReader read;
+  switch (request.map_case()) {
+    case v1::ExportMapRequest::kStaticMap:
+      return StaticMapTarget{};
+    case v1::ExportMapRequest::kObjectId:
+      return ObjectTarget{request.object_id()};
+    case v1::ExportMapRequest::kSceneAtNs: {
+      const SceneAtTarget target{read.Stamp("scene_at_ns", true, request.scene_at_ns())};
+      if (!read.ok()) return read.status();
+      return target;
+    }
+    case v1::ExportMapRequest::MAP_NOT_SET:
+      break;
+  }
+  return FieldError("map", "is missing: static_map, object_id or scene_at_ns");
+}
+
+absl::StatusOr<MapFormat> ReadFormat(int proto) {
+  switch (proto) {
+    case v1::MAP_FORMAT_BT:
+      return MapFormat::kBt;
+    case v1::MAP_FORMAT_OT:
+      return MapFormat::kOt;
+    case v1::MAP_FORMAT_PLY:
+      return MapFormat::kPly;
+    default:
+      return FieldError("format", "must be one of BT, OT and PLY");
+  }
+}
+
+// The bytes of all pieces; RESOURCE_EXHAUSTED before more is kept than allowed.
+absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>& reader,
+                                       std::uint64_t max_bytes, int& format) {
+  std::string bytes;
+  v1::LoadPriorRequest request;
+  for (bool first = true; reader.Read(&request); first = false) {
+    if (first) format = request.format();
+    if (bytes.size() + request.data().size() > max_bytes) {
+      return LimitError("data", bytes.size() + request.data().size(), max_bytes);
+    }
+    bytes += request.data();
+  }
+  return bytes;
+}
+
+// Queues a change and waits until it is published.
+template <class Response>
+absl::Status ApplyChange(ServerCore& core, const grpc::ServerContext* context,
+                         Ingestor::Change change, bool forget_answers, Response* response) {
+  absl::StatusOr<Ingestor::Ticket> ticket = core.ingestor.Apply(std::move(change), forget_answers);
+  if (!ticket.ok()) return ticket.status();
+  const Ingestor::Answer answer = Ingestor::Wait(*ticket, GoneOf(context));
+  if (!answer.ok()) return answer.status();
+  Write(static_cast<const Versioned&>(*answer), response->mutable_scene());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
+                                    const v1::ExportMapRequest* request,
+                                    grpc::ServerWriter<v1::ExportMapResponse>* writer) {
+  return HandleQuery(core_, "ExportMap", context, *request,
+                     [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
+                       absl::StatusOr<MapFormat> format = ReadFormat(request->format());
+                       if (!format.ok()) return format.status();
+                       absl::StatusOr<ExportTarget> target = ReadTarget(*request);
+                       if (!target.ok()) return target.status();
+                       absl::StatusOr<std::string> file = ExportedFile(scene, *target, *format);
+                       if (!file.ok()) return file.status();
+                       v1::ExportMapResponse response;
+                       Write(VersionOf(scene), response.mutable_scene());
+                       for (std::size_t at = 0; at < file->size() && !gone(); at += kPieceBytes) {
+                         response.set_data(file->substr(at, kPieceBytes));
+                         if (!writer->Write(response)) break;
+                       }
+                       return absl::OkStatus();
+                     });
+}
+
+grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
+                                    grpc::ServerReader<v1::LoadPriorRequest>* reader,
+                                    v1::LoadPriorResponse* response) {
+  return Handle(core_, "LoadPrior", [&]() -> absl::Status {
+    const std::uint64_t max_bytes = core_.config.limits.max_prior_bytes;
+    int format = v1::MAP_FORMAT_UNSPECIFIED;
+    absl::StatusOr<std::string> bytes = ReadPieces(*reader, max_bytes, format);
+    if (!bytes.ok()) return bytes.status();
+    if (format != v1::MAP_FORMAT_BT && format != v1::MAP_FORMAT_OT) {
+      return FieldError("format", "must be BT or OT, in the first message");
+    }
+    OctomapLimits limits;
+    limits.max_bytes = max_bytes;
+    absl::StatusOr<OctomapFile> file =
+        ParseOctomap("data", *bytes, core_.config.scene.Model(), limits);
+    if (!file.ok()) return file.status();
+    const OctomapFormat wanted =
+        format == v1::MAP_FORMAT_BT ? OctomapFormat::kBinary : OctomapFormat::kFull;
+    if (file->format != wanted) return FieldError("format", "is not what the data is");
+    return ApplyChange(
+        core_, context,
+        [map = std::move(file->map)](SceneBuilder& builder) { return builder.LoadPrior(map); },
+        false, response);
+  });
+}
+
+grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
+                                      const v1::ClearRegionRequest* request,
+                                      v1::ClearRegionResponse* response) {
+  return Handle(core_, "ClearRegion", [&]() -> absl::Status {
+    FieldReader read;
+    const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
+    if (!read.ok()) return read.status();
+    const auto change = [box_W](SceneBuilder& builder) {
+      builder.ClearRegion(box_W);
+      return absl::OkStatus();
+    };
+    return ApplyChange(core_, context, change, false, response);
+  });
+}
+
+grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
+                                     const v1::SetKeepOutRequest* request,
+                                     v1::SetKeepOutResponse* response) {
+  return Handle(core_, "SetKeepOut", [&]() -> absl::Status {
+    FieldReader read;
+    read.AtMost("boxes_world", request->boxes_world_size(), core_.config.limits.max_boxes);
+    std::vector<Aabb> boxes_W;
+    for (int i = 0; i < request->boxes_world_size() && read.ok(); ++i) {
+      boxes_W.push_back(
+          read.Box(absl::StrCat("boxes_world[", i, "]"), true, request->boxes_world(i)));
+    }
+    if (!read.ok()) return read.status();
+    const auto change = [boxes_W](SceneBuilder& builder) {
+      builder.SetKeepOut(boxes_W);
+      return absl::OkStatus();
+    };
+    return ApplyChange(core_, context, change, false, response);
+  });
+}
+
+grpc::Status MapHandlers::Reset(grpc::ServerContext* context, const v1::ResetRequest*,
+                                v1::ResetResponse* response) {
+  return Handle(core_, "Reset", [&]() -> absl::Status {
+    const auto change = [](SceneBuilder& builder) {
+      builder.Reset();
+      return absl::OkStatus();
+    };
+    return ApplyChange(core_, context, change, true, response);
+  });
+}
+
+}  // namespace clearway

@@ -1,0 +1,64 @@
+#include "absl/strings/str_cat.h"
+#include "server/handler.h"
+#include "server/queries.h"
+#include "server/services.h"
+#include "wire/object_wire.h"
+
+namespace clearway {
+
+grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
+                                         const v1::ListObjectsRequest* request,
+                                         v1::ListObjectsResponse* response) {
+  return HandleQuery(core_, "ListObjects", context, *request,
+                     [&](const SceneSnapshot& scene, const Gone&) {
+                       Write(VersionOf(scene), response->mutable_scene());
+                       for (const ObjectInfo& object : DescribeObjects(scene).objects) {
+                         Write(object, response->add_objects());
+                       }
+                       return absl::OkStatus();
+                     });
+}
+
+grpc::Status ObjectHandlers::GetObject(grpc::ServerContext* context,
+                                       const v1::GetObjectRequest* request,
+                                       v1::GetObjectResponse* response) {
+  return HandleQuery(
+      core_, "GetObject", context, *request, [&](const SceneSnapshot& scene, const Gone&) {
+        const MovingObject* object = scene.FindObject(request->object_id());
+        if (object == nullptr) {
+          return WithReason(
+              absl::NotFoundError(absl::StrCat("object_id: version ", scene.version,
+                                               " has no object ", request->object_id())),
+              "UNKNOWN_OBJECT");
+        }
+        Write(VersionOf(scene), response->mutable_scene());
+        Write(DescribeObject(*object), response->mutable_object());
+        return absl::OkStatus();
+      });
+}
+
+grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
+                                          const v1::PredictPosesRequest* request,
+                                          v1::PredictPosesResponse* response) {
+  return HandleQuery(
+      core_, "PredictPoses", context, *request,
+      [&](const SceneSnapshot& scene, const Gone&) -> absl::Status {
+        FieldReader read;
+        const std::uint64_t limit = core_.config.limits.max_points_per_query;
+        read.AtMost("times_ns", request->times_ns_size(), limit);
+        read.AtMost("object_ids", request->object_ids_size(), limit);
+        read.Require(!request->times_ns().empty(), "times_ns", "is empty");
+        if (!read.ok()) return read.status();
+        const std::vector<Time> times =
+            read.Times("times_ns", request->times_ns(), request->times_ns_size());
+        if (!read.ok()) return read.status();
+        absl::StatusOr<PredictedPoses> poses =
+            AskPoses(scene, std::span(request->object_ids().data(), request->object_ids().size()),
+                     times, limit);
+        if (!poses.ok()) return poses.status();
+        Write(*poses, response);
+        return absl::OkStatus();
+      });
+}
+
+}  // namespace clearway

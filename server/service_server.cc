@@ -1,0 +1,47 @@
+#include "server/handler.h"
+#include "server/queries.h"
+#include "server/services.h"
+#include "wire/server_wire.h"
+
+namespace clearway {
+
+grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
+                                         v1::GetServerInfoResponse* response) {
+  return Handle(core_, "GetServerInfo", [&] {
+    const ScenePtr scene = core_.versions.Newest();
+    const ServerInfo info{VersionOf(*scene), CLEARWAY_VERSION, core_.instance, core_.config.limits,
+                          scene->params};
+    Write(info, response);
+    return absl::OkStatus();
+  });
+}
+
+grpc::Status InfoHandlers::GetStatus(grpc::ServerContext*, const v1::GetStatusRequest* request,
+                                     v1::GetStatusResponse* response) {
+  return Handle(core_, "GetStatus", [&] {
+    const ScenePtr scene = core_.versions.Newest();
+    const IngestCounts counts = core_.ingestor.counts();
+    ServerStatus status;
+    static_cast<Versioned&>(status) = VersionOf(*scene);
+    if (request->include_hash()) status.scene_hash = scene->Hash();
+    status.uptime_s = ToSeconds(std::chrono::steady_clock::now() - core_.started);
+    status.draining = core_.draining;
+    status.frames_applied = counts.frames_applied;
+    status.frames_refused = counts.frames_refused;
+    status.points_used = counts.points_used;
+    status.points_not_finite = counts.points_not_finite;
+    status.queued_frames = counts.queued;
+    status.objects = scene->objects.size();
+    status.static_observed_voxels = scene->static_map_W.observed_count();
+    status.static_occupied_voxels = scene->static_map_W.occupied_count();
+    status.static_box_W = BoxAroundBlocks(scene->static_map_W);
+    status.robots = core_.robots.size();
+    status.leases = core_.leases.size();
+    status.follow_streams = core_.follow_streams;
+    status.push_streams = core_.push_streams;
+    Write(status, response);
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace clearway

@@ -1,0 +1,91 @@
+#include "clearway/client/connection.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/client/error_details.h"
+#include "client/call.h"
+#include "wire/server_wire.h"
+#include "wire/status.h"
+
+namespace clearway {
+namespace {
+
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
+    const ConnectionOptions& options) {
+  if (options.tls_root_certificates_file.empty()) return grpc::InsecureChannelCredentials();
+  std::ifstream file(options.tls_root_certificates_file);
+  std::ostringstream pem;
+  pem << file.rdbuf();
+  if (!file || pem.str().empty()) {
+    return absl::NotFoundError(absl::StrCat("tls_root_certificates_file: cannot read ",
+                                            options.tls_root_certificates_file));
+  }
+  grpc::SslCredentialsOptions tls;
+  tls.pem_root_certs = pem.str();
+  return grpc::SslCredentials(tls);
+}
+
+grpc::ChannelArguments ArgumentsOf() {
+  grpc::ChannelArguments arguments;
+  // The server's limits hold; the client sets none of its own.
+  arguments.SetMaxReceiveMessageSize(-1);
+  arguments.SetMaxSendMessageSize(-1);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  // A channel of its own: two connections of one process are two clients to the server.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return arguments;
+}
+
+}  // namespace
+
+absl::Status FromGrpc(const grpc::Status& status) {
+  if (status.ok()) return absl::OkStatus();
+  google::rpc::Status proto;
+  if (!proto.ParseFromString(status.error_details())) proto.Clear();
+  proto.set_code(status.error_code());
+  proto.set_message(status.error_message());
+  return FromProto(proto);
+}
+
+Connection::Connection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Connection::~Connection() = default;
+
+const std::string& Connection::address() const { return impl_->address; }
+const ConnectionOptions& Connection::options() const { return impl_->options; }
+const ServerInfo& Connection::server() const { return impl_->server; }
+
+absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& address,
+                                                             const ConnectionOptions& options) {
+  auto credentials = CredentialsOf(options);
+  if (!credentials.ok()) return credentials.status();
+  auto impl = std::make_unique<Impl>();
+  impl->address = address;
+  impl->options = options;
+  impl->channel = grpc::CreateCustomChannel(address, *credentials, ArgumentsOf());
+  impl->check = v1::CheckService::NewStub(impl->channel);
+  impl->follow = v1::FollowService::NewStub(impl->channel);
+  impl->ingest = v1::IngestService::NewStub(impl->channel);
+  impl->lease = v1::LeaseService::NewStub(impl->channel);
+  impl->map = v1::MapService::NewStub(impl->channel);
+  impl->object = v1::ObjectService::NewStub(impl->channel);
+  impl->occupancy = v1::OccupancyService::NewStub(impl->channel);
+  impl->info = v1::ServerService::NewStub(impl->channel);
+
+  auto response = Call(options, *impl->info, &v1::ServerService::Stub::GetServerInfo,
+                       v1::GetServerInfoRequest());
+  if (!response.ok()) return response.status();
+  absl::StatusOr<ServerInfo> server = ReadServerInfo(*response);
+  if (!server.ok()) return server.status();
+  impl->server = *std::move(server);
+  return std::shared_ptr<Connection>(new Connection(std::move(impl)));
+}
+
+ErrorDetails DetailsOf(const absl::Status& status) {
+  return {ReasonOf(status), BadFieldOf(status), RetryDelayOf(status)};
+}
+
+}  // namespace clearway

@@ -1,0 +1,135 @@
+#include "clearway/client/remote_checker.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/client/scene_client.h"
+#include "client/call.h"
+#include "wire/check_wire.h"
+#include "wire/robot_wire.h"
+
+namespace clearway {
+namespace {
+
+absl::StatusOr<std::string> Register(const Connection& connection, const v1::Robot& robot) {
+  v1::RegisterRobotRequest request;
+  *request.mutable_robot() = robot;
+  auto response = Call(connection.options(), *connection.impl().check,
+                       &v1::CheckService::Stub::RegisterRobot, request);
+  if (!response.ok()) return response.status();
+  return response->robot_id();
+}
+
+// How many states go into one request: the server's limit, and half of a message.
+std::size_t StatesPerRequest(const ServerLimits& limits, std::size_t links) {
+  constexpr std::size_t kBytesPerPose = 7 * sizeof(double), kBytesPerTime = 10;
+  const std::size_t by_bytes =
+      limits.max_message_bytes / 2 / (links * kBytesPerPose + kBytesPerTime);
+  return std::max<std::size_t>(1, std::min<std::size_t>(limits.max_states_per_batch, by_bytes));
+}
+
+}  // namespace
+
+struct RemoteChecker::Impl {
+  std::shared_ptr<Connection> connection;
+  Robot robot;
+  v1::Robot robot_proto;
+  std::string robot_id;
+  LeaseGrant lease;
+
+  std::mutex mutex;
+  std::condition_variable stop_changed;
+  bool stop = false;
+  std::thread renewer;
+
+  void Renew() {
+    const SceneClient client(connection);
+    std::unique_lock lock(mutex);
+    // A third of the time to live leaves two more attempts.
+    while (!stop_changed.wait_for(lock, lease.ttl / 3, [&] { return stop; })) {
+      lock.unlock();
+      const absl::Status status = client.RenewLease(lease.id, lease.ttl).status();
+      lock.lock();
+      if (absl::IsFailedPrecondition(status)) return;  // gone for good: Check will say so
+    }
+  }
+
+  absl::StatusOr<CheckReply> CheckPart(const StateBatch& states, const CheckOptions& options,
+                                       std::size_t begin, std::size_t end) {
+    v1::CheckStatesRequest request;
+    request.mutable_selector()->set_lease_id(lease.id);
+    request.set_robot_id(robot_id);
+    Write(options, request.mutable_options());
+    WriteStates(states, robot.links.size(), begin, end, &request);
+    const auto call = [&] {
+      return Call(connection->options(), *connection->impl().check,
+                  &v1::CheckService::Stub::CheckStates, request);
+    };
+    auto response = call();
+    if (absl::IsNotFound(response.status())) {  // the server has forgotten the robot
+      if (auto again = Register(*connection, robot_proto); !again.ok()) return again.status();
+      response = call();
+    }
+    if (!response.ok()) return response.status();
+    return ReadCheckReply(*response, end - begin, options.clearance_up_to_m.has_value());
+  }
+};
+
+RemoteChecker::RemoteChecker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+absl::StatusOr<std::unique_ptr<RemoteChecker>> RemoteChecker::Pin(
+    std::shared_ptr<Connection> connection, Robot robot, const RemoteCheckerOptions& options) {
+  auto impl = std::make_unique<Impl>();
+  impl->connection = connection;
+  impl->robot = std::move(robot);
+  Write(impl->robot, &impl->robot_proto);
+  auto robot_id = Register(*connection, impl->robot_proto);
+  if (!robot_id.ok()) return robot_id.status();
+  impl->robot_id = *std::move(robot_id);
+  auto lease = SceneClient(connection).AcquireLease(options.lease_ttl, {options.min_version, ""});
+  if (!lease.ok()) return lease.status();
+  impl->lease = *std::move(lease);
+  impl->renewer = std::thread([raw = impl.get()] { raw->Renew(); });
+  return std::unique_ptr<RemoteChecker>(new RemoteChecker(std::move(impl)));
+}
+
+RemoteChecker::~RemoteChecker() {
+  {
+    std::lock_guard lock(impl_->mutex);
+    impl_->stop = true;
+  }
+  impl_->stop_changed.notify_all();
+  impl_->renewer.join();
+  // If the server is gone, so is the lease: nothing to report.
+  (void)SceneClient(impl_->connection).ReleaseLease(impl_->lease.id);
+}
+
+absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
+                                                const CheckOptions& options) const {
+  const std::size_t links = impl_->robot.links.size();
+  if (states.T_W_L.size() != states.times.size() * links) {
+    return absl::InvalidArgumentError(absl::StrCat("T_W_L: has ", states.T_W_L.size(),
+                                                   " poses for ", states.times.size(),
+                                                   " states of ", links, " links"));
+  }
+  const std::size_t step = StatesPerRequest(impl_->connection->server().limits, links);
+  CheckReply reply{version(), stamp(), {}};
+  std::size_t begin = 0;
+  do {  // an empty batch is asked too: its options may be wrong
+    const std::size_t end = std::min(begin + step, states.times.size());
+    auto part = impl_->CheckPart(states, options, begin, end);
+    if (!part.ok()) return part.status();
+    reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
+    begin = end;
+  } while (begin < states.times.size());
+  return reply;
+}
+
+const Robot& RemoteChecker::robot() const { return impl_->robot; }
+std::uint64_t RemoteChecker::version() const { return impl_->lease.version; }
+Time RemoteChecker::stamp() const { return impl_->lease.stamp; }
+const std::string& RemoteChecker::lease_id() const { return impl_->lease.id; }
+
+}  // namespace clearway

@@ -1,0 +1,181 @@
+#include "wire/delta_wire.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "wire/block_codec.h"
+#include "wire/scene_wire.h"
+#include "wire/status.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kTargetBytes = 1 << 20;  // of a part, as serialized
+
+// Cuts a delta into parts.
+class DeltaWriter {
+ public:
+  DeltaWriter(const SceneDelta& delta, const std::function<bool(const v1::SceneDeltaPart&)>& send)
+      : delta_(delta), send_(send) {
+    Begin();
+    if (delta.params) Write(*delta.params, part_.mutable_params());
+    part_.mutable_removed_object_ids()->Add(delta.removed.begin(), delta.removed.end());
+  }
+
+  bool Run() {
+    AddMap(kStaticLabel, delta_.static_map_W);
+    for (const ObjectDelta& object : delta_.objects) {
+      AddObject(object);
+      AddMap(object.id, object.map_O);
+    }
+    part_.set_last(true);
+    return alive_ && send_(part_);
+  }
+
+ private:
+  void Begin() {
+    part_.Clear();
+    part_.set_from_version(delta_.from_version);
+    part_.set_to_version(delta_.to_version);
+    part_.set_stamp_ns(ToNanoseconds(delta_.stamp));
+    part_.set_part(next_part_++);
+    bytes_ = 0;
+  }
+  void Added(std::size_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ < kTargetBytes) return;
+    alive_ = alive_ && send_(part_);
+    Begin();
+  }
+  void AddMap(ObjectId id, const MapDelta& map) {
+    for (std::size_t begin = 0; begin < map.size() && alive_; begin += kMaxBlocksPerPart) {
+      const std::size_t count = std::min(kMaxBlocksPerPart, map.size() - begin);
+      v1::MapPart* proto = part_.add_maps();
+      proto->set_object_id(id);
+      proto->set_zstd_block_deltas(CompressBlocks(std::span(map).subspan(begin, count)));
+      Added(proto->zstd_block_deltas().size());
+    }
+  }
+  void AddObject(const ObjectDelta& object) {
+    v1::ObjectDelta* proto = part_.add_objects();
+    proto->set_object_id(object.id);
+    for (const StampedPose& entry : object.history) {
+      proto->add_history_ns(ToNanoseconds(entry.stamp));
+      Append(entry.T_W_O, proto->mutable_history_world_from_object());
+    }
+    if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
+    if (object.T_B_O) Write(*object.T_B_O, proto->mutable_box_from_object());
+    proto->set_first_seen_ns(ToNanoseconds(object.first_seen));
+    proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
+    proto->set_frames_seen(object.frames_seen);
+    proto->set_bridged(object.bridged);
+    Added(proto->ByteSizeLong());
+  }
+
+  const SceneDelta& delta_;
+  const std::function<bool(const v1::SceneDeltaPart&)>& send_;
+  v1::SceneDeltaPart part_;
+  std::uint32_t next_part_ = 0;
+  std::size_t bytes_ = 0;
+  bool alive_ = true;
+};
+
+absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
+                                            const v1::ObjectDelta& proto) {
+  FieldReader read(field + ".");
+  ObjectDelta object;
+  object.id = proto.object_id();
+  const std::vector<Pose> poses = read.Poses(
+      "history_world_from_object", proto.history_world_from_object(), proto.history_ns_size());
+  for (int i = 0; i < proto.history_ns_size() && read.ok(); ++i) {
+    object.history.push_back({read.Stamp("history_ns", true, proto.history_ns(i)), poses[i]});
+  }
+  if (proto.has_velocity_object()) {
+    object.velocity_O = read.ReadTwist("velocity_object", proto.velocity_object());
+  }
+  if (proto.has_box_from_object()) {
+    object.T_B_O = read.ReadPose("box_from_object", true, proto.box_from_object());
+  }
+  object.first_seen = read.Stamp("first_seen_ns", true, proto.first_seen_ns());
+  object.last_seen = read.Stamp("last_seen_ns", true, proto.last_seen_ns());
+  object.frames_seen = proto.frames_seen();
+  object.bridged = proto.bridged();
+  if (!read.ok()) return read.status();
+  return object;
+}
+
+}  // namespace
+
+bool WriteDelta(const SceneDelta& delta,
+                const std::function<bool(const v1::SceneDeltaPart&)>& send) {
+  return DeltaWriter(delta, send).Run();
+}
+
+absl::Status DeltaAssembler::Begin(const v1::SceneDeltaPart& part) {
+  delta_ = {};
+  objects_.clear();
+  FieldReader read;
+  delta_.from_version = part.from_version();
+  delta_.to_version = part.to_version();
+  delta_.stamp = read.Stamp("stamp_ns", true, part.stamp_ns());
+  if (!read.ok()) return read.status();
+  if (!part.has_params()) return absl::OkStatus();
+  absl::StatusOr<SceneParams> params = ReadSceneParams("params", part.params());
+  if (params.ok()) delta_.params = *std::move(params);
+  return params.status();
+}
+
+absl::Status DeltaAssembler::AddObjects(const v1::SceneDeltaPart& part) {
+  for (int i = 0; i < part.objects_size(); ++i) {
+    const std::string field = absl::StrCat("objects[", i, "]");
+    absl::StatusOr<ObjectDelta> object = ReadObjectDelta(field, part.objects(i));
+    if (!object.ok()) return object.status();
+    if (!objects_.emplace(object->id, delta_.objects.size()).second) {
+      return FieldError(field + ".object_id", "occurs twice");
+    }
+    delta_.objects.push_back(*std::move(object));
+  }
+  delta_.removed.insert(delta_.removed.end(), part.removed_object_ids().begin(),
+                        part.removed_object_ids().end());
+  return absl::OkStatus();
+}
+
+absl::Status DeltaAssembler::AddMaps(const v1::SceneDeltaPart& part) {
+  for (int i = 0; i < part.maps_size(); ++i) {
+    const v1::MapPart& map = part.maps(i);
+    const std::string field = absl::StrCat("maps[", i, "]");
+    const auto object = objects_.find(map.object_id());
+    if (map.object_id() != kStaticLabel && object == objects_.end()) {
+      return FieldError(field + ".object_id", "is not among the objects sent so far");
+    }
+    absl::StatusOr<MapDelta> blocks = DecompressBlocks(
+        field + ".zstd_block_deltas", map.zstd_block_deltas(), kMaxBlocksPerPart, kMaxPartBytes);
+    if (!blocks.ok()) return blocks.status();
+    MapDelta& target = map.object_id() == kStaticLabel ? delta_.static_map_W
+                                                       : delta_.objects[object->second].map_O;
+    target.insert(target.end(), std::make_move_iterator(blocks->begin()),
+                  std::make_move_iterator(blocks->end()));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::optional<SceneDelta>> DeltaAssembler::Add(const v1::SceneDeltaPart& part) {
+  if (part.part() != next_part_ ||
+      (next_part_ > 0 &&
+       (part.to_version() != delta_.to_version || part.from_version() != delta_.from_version))) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        "part: is ", part.part(), " of version ", part.to_version(), "; expected ", next_part_));
+  }
+  if (part.part() == 0) {
+    if (absl::Status status = Begin(part); !status.ok()) return status;
+  }
+  if (absl::Status status = AddObjects(part); !status.ok()) return status;
+  if (absl::Status status = AddMaps(part); !status.ok()) return status;
+  ++next_part_;
+  if (!part.last()) return std::nullopt;
+  next_part_ = 0;
+  objects_.clear();
+  return std::optional<SceneDelta>(std::move(delta_));
+}
+
+}  // namespace clearway

@@ -1,0 +1,80 @@
+#include "wire/object_wire.h"
+
+#include <cmath>
+#include <limits>
+
+#include "wire/scene_wire.h"
+
+namespace clearway {
+
+void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
+  proto->set_object_id(object.id);
+  Write(object.T_W_O, proto->mutable_world_from_object());
+  proto->set_pose_stamp_ns(ToNanoseconds(object.t_k));
+  if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
+  proto->set_speed_mps(object.speed_mps);
+  if (!object.box_O.Empty()) Write(object.box_O, proto->mutable_box_object());
+  if (!object.box_W.Empty()) Write(object.box_W, proto->mutable_box_world());
+  proto->set_observed_voxels(object.observed_voxels);
+  proto->set_occupied_voxels(object.occupied_voxels);
+  proto->set_first_seen_ns(ToNanoseconds(object.first_seen));
+  proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
+  proto->set_frames_seen(object.frames_seen);
+  proto->set_at_rest(object.at_rest);
+  proto->set_bridged(object.bridged);
+}
+
+absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
+  FieldReader read;
+  ObjectInfo object;
+  object.id = proto.object_id();
+  object.T_W_O =
+      read.ReadPose("world_from_object", proto.has_world_from_object(), proto.world_from_object());
+  object.t_k = TimeFromNanoseconds(proto.pose_stamp_ns());
+  if (proto.has_velocity_object()) {
+    object.velocity_O = read.ReadTwist("velocity_object", proto.velocity_object());
+  }
+  object.speed_mps = proto.speed_mps();
+  if (proto.has_box_object()) object.box_O = read.Box("box_object", true, proto.box_object());
+  if (proto.has_box_world()) object.box_W = read.Box("box_world", true, proto.box_world());
+  object.observed_voxels = proto.observed_voxels();
+  object.occupied_voxels = proto.occupied_voxels();
+  object.first_seen = TimeFromNanoseconds(proto.first_seen_ns());
+  object.last_seen = TimeFromNanoseconds(proto.last_seen_ns());
+  object.frames_seen = proto.frames_seen();
+  object.at_rest = proto.at_rest();
+  object.bridged = proto.bridged();
+  if (!read.ok()) return read.status();
+  return object;
+}
+
+void Write(const PredictedPoses& poses, v1::PredictPosesResponse* proto) {
+  Write(static_cast<const Versioned&>(poses), proto->mutable_scene());
+  proto->mutable_object_ids()->Add(poses.objects.begin(), poses.objects.end());
+  for (const PredictedPose& pose : poses.poses) {
+    Append(pose.T_W_O, proto->mutable_world_from_object());
+    proto->add_beyond_horizon_radius_m(
+        pose.beyond_horizon_radius_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+}
+
+absl::StatusOr<PredictedPoses> ReadPredictedPoses(const v1::PredictPosesResponse& proto,
+                                                  std::size_t times) {
+  const std::size_t count = proto.object_ids_size() * times;
+  FieldReader read;
+  const std::vector<Pose> poses = read.Poses("world_from_object", proto.world_from_object(), count);
+  read.Require(static_cast<std::size_t>(proto.beyond_horizon_radius_m_size()) == count,
+               "beyond_horizon_radius_m", "does not have one entry per pose");
+  if (!read.ok()) return read.status();
+  PredictedPoses answer;
+  static_cast<Versioned&>(answer) = ReadVersion(proto.scene());
+  answer.objects.assign(proto.object_ids().begin(), proto.object_ids().end());
+  for (std::size_t i = 0; i < count; ++i) {
+    const double radius_m = proto.beyond_horizon_radius_m(i);
+    answer.poses.push_back({poses[i], {}});
+    if (!std::isnan(radius_m)) answer.poses.back().beyond_horizon_radius_m = radius_m;
+  }
+  return answer;
+}
+
+}  // namespace clearway

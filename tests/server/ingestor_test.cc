@@ -1,0 +1,210 @@
+#include "server/ingestor.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "server/leases.h"
+#include "support/frames.h"
+#include "wire/status.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::FrameAt;
+
+const Gone kNever = [] { return false; };
+
+Frame Numbered(std::uint64_t sequence, double seconds) {
+  Frame frame = FrameAt(seconds);
+  frame.sequence = sequence;
+  testing_support::AddPoint(frame, kStaticLabel, {1 + 0.5 * static_cast<double>(sequence), 0, 0});
+  return frame;
+}
+
+class IngestorTest : public testing::Test {
+ protected:
+  Ingestor::Answer Push(Frame frame) {
+    auto ticket = dut_->Push(std::move(frame));
+    return ticket.ok() ? Ingestor::Wait(*ticket, kNever) : ticket.status();
+  }
+  // Keeps the writer busy until the returned promise is set.
+  std::promise<void> Block() {
+    std::promise<void> release;
+    auto started = std::make_shared<std::promise<void>>();
+    auto wait = std::make_shared<std::future<void>>(release.get_future());
+    EXPECT_TRUE(dut_->Apply([started, wait](SceneBuilder&) {
+                      started->set_value();
+                      wait->wait();
+                      return absl::OkStatus();
+                    })
+                    .ok());
+    started->get_future().wait();
+    return release;
+  }
+
+  Versions versions_{4};
+  std::unique_ptr<Ingestor> dut_ = std::make_unique<Ingestor>(
+      Ingestor::Options{
+          .scene = {}, .frames = {}, .max_queued = 2, .max_remembered = 3, .threads = 1},
+      versions_);
+};
+
+TEST_F(IngestorTest, Empty) {
+  ASSERT_NE(versions_.Newest(), nullptr);
+  EXPECT_EQ(versions_.Newest()->version, 1u);
+  EXPECT_EQ(dut_->counts().frames_applied, 0u);
+}
+
+TEST_F(IngestorTest, AnAnswerNamesTheFirstVersionWithTheFrame) {
+  const auto first = Push(Numbered(1, 1)), second = Push(Numbered(2, 2));
+  ASSERT_TRUE(first.ok() && second.ok());
+  EXPECT_EQ(first->version, 2u);
+  EXPECT_EQ(second->version, 3u);
+  EXPECT_EQ(second->reached, AckLevel::kApplied);
+  EXPECT_EQ(second->report.points_used, 1u);
+  EXPECT_EQ(versions_.Newest()->version, 3u);
+}
+
+TEST_F(IngestorTest, ARepeatGetsTheFirstAnswerAndChangesNothing) {
+  const auto first = Push(Numbered(1, 1));
+  const std::string hash = versions_.Newest()->Hash();
+  Frame other = Numbered(1, 5);  // the same name, whatever else it says
+  const auto again = Push(other);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_FALSE(first->repeated_answer);
+  EXPECT_TRUE(again->repeated_answer);
+  EXPECT_EQ(again->version, first->version);
+  EXPECT_EQ(versions_.Newest()->Hash(), hash);
+}
+
+TEST_F(IngestorTest, ARefusalIsRememberedToo) {
+  ASSERT_TRUE(Push(Numbered(1, 10)).ok());
+  EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 5)).status()));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 11)).status()));
+  EXPECT_EQ(dut_->counts().frames_refused, 1u);
+}
+
+TEST_F(IngestorTest, RemembersAsManyAnswersAsItMay) {
+  for (int i = 1; i <= 4; ++i) ASSERT_TRUE(Push(Numbered(i, 1)).ok());
+  EXPECT_TRUE(Push(Numbered(2, 1))->repeated_answer);
+  EXPECT_FALSE(Push(Numbered(1, 1))->repeated_answer);
+}
+
+TEST_F(IngestorTest, ResetForgetsAnswersAndStamps) {
+  ASSERT_TRUE(Push(Numbered(1, 10)).ok());
+  auto reset = dut_->Apply(
+      [](SceneBuilder& builder) {
+        builder.Reset();
+        return absl::OkStatus();
+      },
+      true);
+  ASSERT_TRUE(reset.ok());
+  ASSERT_TRUE(Ingestor::Wait(*reset, kNever).ok());
+  const auto again = Push(Numbered(1, 1));
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_FALSE(again->repeated_answer);
+  EXPECT_EQ(again->version, 4u);
+}
+
+TEST_F(IngestorTest, AFullQueueRefusesAndTheFrameMayComeAgain) {
+  std::promise<void> release = Block();
+  ASSERT_TRUE(dut_->Push(Numbered(1, 1)).ok());
+  ASSERT_TRUE(dut_->Push(Numbered(2, 1)).ok());
+  const absl::Status full = dut_->Push(Numbered(3, 1)).status();
+  EXPECT_TRUE(absl::IsResourceExhausted(full));
+  EXPECT_EQ(ReasonOf(full), "QUEUE_FULL");
+  release.set_value();
+  ASSERT_TRUE(Push(Numbered(2, 1)).ok());  // once it is applied there is room
+  EXPECT_FALSE(Push(Numbered(3, 1))->repeated_answer);
+}
+
+TEST_F(IngestorTest, ARepeatOfAWaitingFrameSharesItsAnswer) {
+  std::promise<void> release = Block();
+  const auto first = dut_->Push(Numbered(1, 1)), again = dut_->Push(Numbered(1, 1));
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(dut_->counts().queued, 1u);
+  release.set_value();
+  EXPECT_EQ(Ingestor::Wait(*first, kNever)->version, Ingestor::Wait(*again, kNever)->version);
+}
+
+TEST_F(IngestorTest, WaitingForRoomEndsWhenTheClientGoes) {
+  std::promise<void> release = Block();
+  ASSERT_TRUE(dut_->Push(Numbered(1, 1)).ok());
+  ASSERT_TRUE(dut_->Push(Numbered(2, 1)).ok());
+  EXPECT_TRUE(absl::IsCancelled(dut_->PushWhenRoom(Numbered(3, 1), [] { return true; }).status()));
+  release.set_value();
+}
+
+TEST_F(IngestorTest, DrainingFinishesWhatWasAcceptedAndRefusesTheRest) {
+  std::promise<void> release = Block();
+  const auto accepted = dut_->Push(Numbered(1, 1));
+  std::thread drain([&] { dut_->Drain(); });
+  // Until the drain has begun, the queue fills up instead.
+  std::uint64_t sequence = 100;
+  while (!absl::IsUnavailable(dut_->Push(Numbered(sequence, 1)).status())) ++sequence;
+  release.set_value();
+  drain.join();
+  EXPECT_TRUE(Ingestor::Wait(*accepted, kNever).ok());
+}
+
+class LeasesTest : public testing::Test {
+ protected:
+  ScenePtr Scene() {
+    SceneSnapshot scene = SceneSnapshot::Empty({});
+    scene.version = 5;
+    return std::make_shared<const SceneSnapshot>(scene);
+  }
+  Leases::Clock::time_point now_;
+  Leases dut_{
+      {.max_leases = 2, .max_ttl = std::chrono::seconds(60), .now = [this] { return now_; }}};
+};
+
+TEST_F(LeasesTest, Empty) {
+  EXPECT_EQ(dut_.size(), 0u);
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Find("x").status()));
+}
+
+TEST_F(LeasesTest, HoldsAVersionUntilItsTimeIsOver) {
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10));
+  ASSERT_TRUE(lease.ok());
+  now_ += std::chrono::seconds(9);
+  EXPECT_EQ((*dut_.Find(lease->id))->version, 5u);
+  now_ += std::chrono::seconds(1);
+  const absl::Status gone = dut_.Find(lease->id).status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(gone));
+  EXPECT_EQ(ReasonOf(gone), "LEASE_GONE");
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Renew(lease->id, std::chrono::seconds(9)).status()));
+}
+
+TEST_F(LeasesTest, RenewalCountsFromNow) {
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10));
+  now_ += std::chrono::seconds(9);
+  ASSERT_TRUE(dut_.Renew(lease->id, std::chrono::seconds(10)).ok());
+  now_ += std::chrono::seconds(9);
+  EXPECT_TRUE(dut_.Find(lease->id).ok());
+}
+
+TEST_F(LeasesTest, IsGrantedAtMostTheLongestTime) {
+  EXPECT_EQ(dut_.Acquire(Scene(), std::chrono::hours(1))->ttl, std::chrono::seconds(60));
+}
+
+TEST_F(LeasesTest, RefusesMoreThanAllowedUntilOneEnds) {
+  const auto first = dut_.Acquire(Scene(), std::chrono::seconds(10));
+  ASSERT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10)).ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(dut_.Acquire(Scene(), std::chrono::seconds(10)).status()));
+  dut_.Release(first->id);
+  EXPECT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10)).ok());
+}
+
+TEST_F(LeasesTest, TheVersionIsFreedWithTheLease) {
+  ScenePtr scene = Scene();
+  const std::weak_ptr<const SceneSnapshot> watch = scene;
+  const auto lease = dut_.Acquire(std::move(scene), std::chrono::seconds(10));
+  EXPECT_FALSE(watch.expired());
+  dut_.Release(lease->id);
+  EXPECT_TRUE(watch.expired());
+}
+
+}  // namespace
+}  // namespace clearway

@@ -1,0 +1,177 @@
+// The program itself: how it starts, refuses to start, and ends.
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+
+#include "clearway/client/frame_sender.h"
+#include "clearway/client/scene_client.h"
+#include "support/frames.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+// A running clearway-server with its output in a pipe. One thread.
+class Process {
+ public:
+  explicit Process(std::vector<std::string> arguments, std::vector<std::string> environment = {}) {
+    arguments.insert(arguments.begin(), CLEARWAY_SERVER_PROGRAM);
+    std::array<int, 2> pipe_ends{};
+    EXPECT_EQ(pipe(pipe_ends.data()), 0);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
+    posix_spawn_file_actions_addclose(&actions, pipe_ends[0]);
+    posix_spawn_file_actions_addclose(&actions, pipe_ends[1]);
+    EXPECT_EQ(posix_spawn(&id_, CLEARWAY_SERVER_PROGRAM, &actions, nullptr,
+                          Pointers(arguments).data(), Pointers(environment).data()),
+              0);
+    posix_spawn_file_actions_destroy(&actions);
+    close(pipe_ends[1]);
+    output_ = fdopen(pipe_ends[0], "r");
+  }
+  ~Process() {
+    if (!ended_) {
+      kill(id_, SIGKILL);
+      Wait();
+    }
+    fclose(output_);
+  }
+
+  // Where it listens; empty if it ended instead.
+  std::string Address() {
+    std::string line;
+    while (ReadLine(line)) {
+      const std::string sign = "listening on ";
+      if (line.rfind(sign, 0) == 0) return line.substr(sign.size());
+    }
+    return "";
+  }
+  std::string RestOfOutput() {
+    std::string line, all = seen_;
+    while (ReadLine(line)) all += line + "\n";
+    return all;
+  }
+  void Signal(int signal) const { kill(id_, signal); }
+  // The exit code; -1 if a signal ended it.
+  int Wait() {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    ended_ = true;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  static std::vector<char*> Pointers(std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    return pointers;
+  }
+  bool ReadLine(std::string& line) {
+    line.clear();
+    for (int c = fgetc(output_); c != EOF; c = fgetc(output_)) {
+      if (c == '\n') {
+        seen_ += line + "\n";
+        return true;
+      }
+      line += static_cast<char>(c);
+    }
+    return false;
+  }
+
+  pid_t id_ = 0;
+  FILE* output_ = nullptr;
+  std::string seen_;
+  bool ended_ = false;
+};
+
+// grpc.health.v1.Health/Check: 1 is SERVING, 2 NOT_SERVING.
+int HealthOf(const std::string& address) {
+  const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  context.set_wait_for_ready(true);
+  grpc::ByteBuffer request(nullptr, 0), response;
+  const grpc::Status status = grpc::internal::BlockingUnaryCall(
+      channel.get(),
+      grpc::internal::RpcMethod("/grpc.health.v1.Health/Check",
+                                grpc::internal::RpcMethod::NORMAL_RPC),
+      &context, request, &response);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  grpc::Slice slice;
+  if (!response.DumpToSingleSlice(&slice).ok() || slice.size() != 2) return -1;
+  return slice.begin()[1];
+}
+
+TEST(ServerProcess, Empty) {
+  Process dut({"--listen", "127.0.0.1:0"});
+  const std::string address = dut.Address();
+  ASSERT_FALSE(address.empty()) << dut.RestOfOutput();
+  EXPECT_EQ(HealthOf(address), 1);
+  dut.Signal(SIGTERM);
+  EXPECT_EQ(dut.Wait(), 0);
+}
+
+TEST(ServerProcess, DrainsWithClientsConnected) {
+  Process dut({"--listen", "127.0.0.1:0", "--scene-resolution-m", "0.5"});
+  const auto connection = Connection::Open(dut.Address());
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  EXPECT_EQ((*connection)->server().params.resolution_m, 0.5);
+  FrameSender sender(*connection);
+  Frame frame = testing_support::FrameAt(1);
+  testing_support::AddPoint(frame, kStaticLabel, {1, 0, 0});
+  EXPECT_TRUE(sender.Push(frame).ok());
+  EXPECT_TRUE(sender.OpenStream([](const auto&, auto, const auto&) {}).ok());
+  dut.Signal(SIGTERM);
+  EXPECT_EQ(dut.Wait(), 0);
+}
+
+TEST(ServerProcess, ListensOnAUnixSocket) {
+  const TemporaryFolder folder;
+  Process dut({"--listen", "unix:" + (folder / "socket").string()});
+  const auto connection = Connection::Open(dut.Address());
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+}
+
+TEST(ServerProcess, RefusesAPortInUse) {
+  Process first({"--listen", "127.0.0.1:0"});
+  const std::string address = first.Address();
+  Process dut({"--listen", address});
+  EXPECT_EQ(dut.Address(), "");
+  EXPECT_EQ(dut.Wait(), 1);
+  EXPECT_NE(dut.RestOfOutput().find(address), std::string::npos);
+}
+
+TEST(ServerProcess, RefusesUnknownKeys) {
+  for (const auto& [arguments, environment] :
+       std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>{
+           {{"--scene-resolution", "1"}, {}}, {{}, {"CLEARWAY_COLOUR=red"}}}) {
+    Process dut(arguments, environment);
+    EXPECT_EQ(dut.Address(), "");
+    EXPECT_EQ(dut.Wait(), 2);
+  }
+}
+
+TEST(ServerProcess, RefusesToBeReachedFromElsewhereWithoutTls) {
+  Process dut({"--listen", "0.0.0.0:0"});
+  EXPECT_NE(dut.RestOfOutput().find("tls_cert"), std::string::npos);
+  EXPECT_EQ(dut.Wait(), 2);
+}
+
+TEST(ServerProcess, PrintsItsConfiguration) {
+  Process dut({"--print-config", "--threads", "3"});
+  EXPECT_NE(dut.RestOfOutput().find("threads = 3"), std::string::npos);
+  EXPECT_EQ(dut.Wait(), 0);
+}
+
+}  // namespace
+}  // namespace clearway
