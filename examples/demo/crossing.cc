@@ -71,9 +71,9 @@ absl::StatusOr<Crossing> MakeCrossing(const Truth& truth, ObjectId blocker, Time
   const auto before = BoxOf(truth, blocker, now + kAhead - kEither);
   const auto after = BoxOf(truth, blocker, now + kAhead + kEither);
   if (!there || !before || !after) {
-    return absl::NotFoundError(absl::StrFormat(
-        "object %d is not recorded %g s after %g s", blocker, ToSeconds(kAhead),
-        ToSeconds(now.time_since_epoch())));
+    return absl::NotFoundError(absl::StrFormat("object %d is not recorded %g s after %g s", blocker,
+                                               ToSeconds(kAhead),
+                                               ToSeconds(now.time_since_epoch())));
   }
   const Eigen::Vector2d way =
       (after->T_W_B.translation - before->T_W_B.translation).head<2>().normalized();
@@ -130,7 +130,9 @@ std::vector<TimedPose> StraightWay(const Crossing& crossing, const GroundPlane& 
 }
 
 Verdict Judge(const Truth& truth, const Crossing& crossing, const std::vector<TimedPose>& path) {
-  Verdict verdict{.closest_m = kFarM, .checked_until = std::min(path.back().time, truth.end)};
+  Verdict verdict;
+  verdict.closest_m = kFarM;
+  verdict.checked_until = std::min(path.back().time, truth.end);
   const auto touched = [&](const TimedPose& pose, double padding_m) {
     const Eigen::Vector3d size = crossing.robot_size_m.array() + 2 * padding_m;
     return truth.touched(Box{size}, pose.T_W_L, pose.time);

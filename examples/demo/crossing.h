@@ -24,7 +24,12 @@ struct Crossing {
   double shift_m = 0;  // along the object's path, from the place that was asked for
 
   double Yaw() const;  // of the way from start to goal
-  Robot RobotModel() const { return Robot::SingleShape(name, Box{robot_size_m}); }
+  // The robot to plan with: wider by `margin_m` on all sides, but not taller, for below it there is
+  // the ground.
+  Robot RobotModel(double margin_m) const {
+    return Robot::SingleShape("delivery robot",
+                              Box{robot_size_m + 2 * margin_m * Eigen::Vector3d(1, 1, 0)});
+  }
 };
 
 // The way across the recorded path of `blocker`, from 4 m on its left to 4 m on its right (or, if

@@ -37,9 +37,9 @@ Truth TruthOf(std::shared_ptr<const World> world, Time end) {
     for (const ObjectId id : world->ObjectIds()) {
       const Aabb box_B = world->FindObject(id)->BoxB();
       const Eigen::Vector3d center_B = box_B.Center();
-      boxes.push_back({id, box_B.Size(),
-                       *world->T_W_B(id, t) *
-                           Pose::Translation(center_B.x(), center_B.y(), center_B.z())});
+      boxes.push_back(
+          {id, box_B.Size(),
+           *world->T_W_B(id, t) * Pose::Translation(center_B.x(), center_B.y(), center_B.z())});
     }
     return boxes;
   };

@@ -34,8 +34,8 @@ struct Truth {
 
 // Of a simulated world: exact shapes, the static ones included.
 Truth TruthOf(std::shared_ptr<const World> world, Time end);
-// Of a recording: its boxes, between two frames moved along the screw from the one to the other. The
-// static world is not recorded.
+// Of a recording: its boxes, between two frames moved along the screw from the one to the other.
+// The static world is not recorded.
 Truth TruthOf(const LidarFolder& folder);
 
 std::optional<TrueBox> BoxOf(const Truth& truth, ObjectId id, Time t);
