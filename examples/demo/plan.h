@@ -22,7 +22,7 @@ struct PlanSettings {
   double max_unknown_fraction = 0.5;
   double ground_clearance_m = 0.2;  // of the robot over the fitted ground: two voxels
   double max_turn_radps = 1.5;
-  unsigned int iterations = 600;  // of the planner
+  unsigned int iterations = 4000;  // of the planner, for a first path
   std::vector<ObjectId> ignored_objects;
 };
 
