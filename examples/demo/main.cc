@@ -1,0 +1,44 @@
+// The main job end to end: labelled scans in, a plan around moving objects out.
+#include <ompl/util/RandomNumbers.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "demo/run.h"
+
+int main(int argc, char** argv) {
+  clearway::demo::DemoOptions options;
+  std::uint32_t seed = 1;
+  CLI::App app(
+      "Starts a server, replays a sequence through it, asks what is where and when, plans "
+      "crossings "
+      "before moving objects, and judges the plans by what really happened.\n"
+      "Example: clearway-demo --data ../shared/data/kitti0000_fov --out demo-output");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--data", options.data, "Folder of LiDAR scans; without it, the simulator")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--scenario", options.scenario, "World of the simulator");
+  app.add_option("--out", options.output, "Folder for summary.json and the pictures");
+  app.add_option("--server", options.server, "The server's program")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--margin", options.planning.margin_m, "Metres to keep clear of everything")
+      ->check(CLI::Range(0.0, 2.0));
+  app.add_option("--inflation", options.planning.inflation_mps,
+                 "Metres a second by which predictions grow")
+      ->check(CLI::Range(0.0, 2.0));
+  app.add_option("--iterations", options.planning.iterations, "Of the planner, at most")
+      ->check(CLI::Range(1u, 10'000'000u));
+  app.add_option("--seed", seed, "Of the planner's random numbers")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  ompl::RNG::setSeed(seed);
+
+  const auto passed = clearway::demo::RunDemo(options, std::cout, isatty(STDOUT_FILENO) != 0);
+  if (!passed.ok()) {
+    std::cerr << "clearway-demo: " << passed.status().ToString() << "\n";
+    return 2;
+  }
+  std::cout << (*passed ? "Every plan passed.\n" : "Not every plan passed.\n");
+  return *passed ? 0 : 1;
+}
