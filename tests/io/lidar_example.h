@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 
-#include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
 #include "support/temporary_folder.h"
 
@@ -24,20 +24,26 @@ inline constexpr char kObjects[] =
     "6,2,\"Van, white\",0,4,2,2,0,0,-1,0,10,1,0,0,3,0,0,1,1\n"
     "6,3,Cyclist,0,2,1,2,0,1,0,0,5,0,1,0,5,0,0,1,1\n";
 
-inline std::string Point(float x, float y, float z, std::int16_t label) {
-  std::string record(14, '\0');
-  const float xyz[3] = {x, y, z};
-  std::memcpy(record.data(), xyz, 12);
-  std::memcpy(record.data() + 12, &label, 2);
-  return record;
+struct LabelledPoint {
+  float x, y, z;
+  std::int16_t label;
+};
+
+// The bytes of a file of points.
+inline std::string PointBytes(std::initializer_list<LabelledPoint> points) {
+  std::string bytes;
+  for (const LabelledPoint& point : points) {
+    bytes.append(reinterpret_cast<const char*>(&point), 14);  // without the padding at the end
+  }
+  return bytes;
 }
 
 // Three frames, 4 to 6, of one van that moves 1 m, then turns a quarter.
 inline void WriteExample(const TemporaryFolder& folder) {
   folder.Write("poses_icp.csv", kPoses);
   folder.Write("objects_icp.csv", kObjects);
-  folder.Write("points/0004.bin", absl::StrCat(Point(1, 2, 3, 0), Point(4, 5, 6, 2), Point(7, 8, 9, -1)));
-  folder.Write("points/0005.bin", Point(1, 1, 1, 77));
+  folder.Write("points/0004.bin", PointBytes({{1, 2, 3, 0}, {4, 5, 6, 2}, {7, 8, 9, -1}}));
+  folder.Write("points/0005.bin", PointBytes({{1, 1, 1, 77}}));
   folder.Write("points/0006.bin", "");
 }
 

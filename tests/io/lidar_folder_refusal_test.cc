@@ -57,7 +57,7 @@ TEST(LidarFolder, RefusesPointsCutOffInsideARecord) {
 TEST(LidarFolder, RefusesALabelBelowIgnore) {
   TemporaryFolder folder;
   WriteExample(folder);
-  folder.Write("points/0004.bin", Point(0, 0, 0, 0) + Point(0, 0, 0, -2));
+  folder.Write("points/0004.bin", PointBytes({{0, 0, 0, 0}, {0, 0, 0, -2}}));
   const auto frame = OpenLidarFolder(folder.path())->frames.read(0);
   EXPECT_THAT(std::string(frame.status().message()),
               HasSubstr("0004.bin, point 1 at byte 26: label -2; the lowest is -1"));
