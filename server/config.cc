@@ -93,7 +93,8 @@ struct Flags {
 absl::StatusOr<Flags> ReadFlags(std::vector<std::string> arguments) {
   CLI::App app(
       "Clearway's server: labelled scans in, answers about a moving world out.\n"
-      "Example: clearway-server --listen 127.0.0.1:0 --scene-resolution-m 0.05");
+      "Example: clearway-server --listen 127.0.0.1:0 --scene-resolution-m 0.05",
+      "clearway-server");
   Flags flags;
   app.add_option("--config", flags.file, "TOML file");
   app.add_flag("--print-config", flags.print_config, "print the configuration as TOML and end");

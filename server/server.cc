@@ -7,6 +7,7 @@
 #include <fstream>
 #include <mutex>
 #include <sstream>
+#include <thread>
 
 #include "absl/strings/str_cat.h"
 #include "server/core.h"
@@ -17,6 +18,7 @@ namespace clearway {
 namespace {
 
 constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
+constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
 constexpr int kSpareThreads = 64;              // of gRPC's own, beyond one per call
 
 absl::StatusOr<std::string> ReadPem(const char* key, const std::string& path) {
@@ -55,6 +57,14 @@ void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
   grpc::ResourceQuota quota("clearway");
   quota.SetMaxThreads(static_cast<int>(limits.max_calls) + kSpareThreads);
   builder.SetResourceQuota(quota);
+}
+
+// Until no call but open push streams is running; those may stay idle for ever.
+void WaitForCalls(const ServerCore& core) {
+  const auto end = std::chrono::steady_clock::now() + kLastCalls;
+  while (core.calls > core.push_streams && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 }  // namespace
@@ -116,7 +126,8 @@ void Server::Drain() {
     impl_->server->GetHealthCheckService()->SetServingStatus(false);
     impl_->core.ingestor.Drain();
     impl_->core.versions.Close();
-    impl_->server->Shutdown(std::chrono::system_clock::now() + kLastCalls);
+    WaitForCalls(impl_->core);
+    impl_->server->Shutdown(std::chrono::system_clock::now() + kLastAnswers);
     impl_->server->Wait();
   });
 }

@@ -62,6 +62,8 @@ class AnswerWriter {
           Run();
         }) {}
 
+  ~AnswerWriter() { Finish(); }
+
   // Waits while the window is full.
   void Owe(const v1::Frame& frame, AckLevel level, absl::StatusOr<Ingestor::Ticket> ticket) {
     std::unique_lock lock(mutex_);
@@ -77,7 +79,7 @@ class AnswerWriter {
       finishing_ = true;
     }
     changed_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
  private:
@@ -163,7 +165,7 @@ grpc::Status IngestHandlers::PushFrames(
         answers.Owe(request.frame(), AckLevel::kApplied, checked.status());
       }
     }
-    answers.Finish();
+    answers.Finish();  // before the call ends with a status
     return absl::OkStatus();
   });
 }

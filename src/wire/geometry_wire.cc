@@ -1,6 +1,7 @@
 #include "wire/geometry_wire.h"
 
 #include <cmath>
+#include <limits>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/scene/frame.h"
@@ -8,6 +9,9 @@
 
 namespace clearway {
 namespace {
+
+// Any finite position may be asked about; where limits matter, whoever uses the pose has its own.
+constexpr double kAnyCoordinate_m = std::numeric_limits<double>::max();
 
 Eigen::Vector3d ToVector(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
 
@@ -91,7 +95,7 @@ Eigen::Vector3d FieldReader::Vector(const std::string& field, bool present,
 
 void FieldReader::CheckPose(const std::string& field, const Pose& pose) {
   if (!ok()) return;
-  if (absl::Status status = ValidatePose(field, pose, kMaxWireCoordinate_m); !status.ok()) {
+  if (absl::Status status = ValidatePose(field, pose, kAnyCoordinate_m); !status.ok()) {
     Fail(status);
   }
 }
@@ -138,7 +142,7 @@ std::vector<Pose> FieldReader::Poses(const std::string& field, const v1::PoseArr
     const double* q = proto.rotations_xyzw().data() + 4 * i;
     const double* p = proto.translations_m().data() + 3 * i;
     poses.push_back({Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}});
-    const absl::Status status = ValidatePose("", poses.back(), kMaxWireCoordinate_m);
+    const absl::Status status = ValidatePose("", poses.back(), kAnyCoordinate_m);
     if (!status.ok()) CheckPose(absl::StrCat(field, "[", i, "]"), poses.back());
   }
   return poses;

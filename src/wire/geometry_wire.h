@@ -13,9 +13,6 @@
 
 namespace clearway {
 
-// Coordinates beyond this are refused everywhere, whatever a server's own limit is.
-inline constexpr double kMaxWireCoordinate_m = 1e9;
-
 void Write(const Eigen::Vector3d& vector, v1::Vector3* proto);
 void Write(const Pose& pose, v1::Pose* proto);
 void Write(const Twist& twist, v1::Twist* proto);

