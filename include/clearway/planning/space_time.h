@@ -62,6 +62,9 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   // The interval of times at which a state of space() can be visited under Focus; empty (first >
   // second) if at none.
   std::pair<double, double> VisitableSeconds(const ompl::base::State* part) const;
+  // Under Focus: writes the place at `fraction` of the straight way from start to goal and returns
+  // true; else false.
+  bool OnStraightWay(double fraction, ompl::base::State* part) const;
 
   // Unreachable: far above every extent, yet finite, so that a planner that steps a part of the way
   // to an unreachable state proposes a motion that the motion validator refuses (with infinity it
