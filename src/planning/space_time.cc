@@ -146,6 +146,12 @@ std::pair<double, double> SpaceTimeStateSpace::VisitableSeconds(const ob::State*
           focus_latest_s_ - MinSeconds(part, focus_goal_part_.get())};
 }
 
+bool SpaceTimeStateSpace::OnStraightWay(double fraction, ob::State* part) const {
+  if (focus_start_part_ == nullptr) return false;
+  space()->interpolate(focus_start_part_.get(), focus_goal_part_.get(), fraction, part);
+  return true;
+}
+
 ob::StateSamplerPtr SpaceTimeStateSpace::allocDefaultStateSampler() const {
   return std::make_shared<SpaceTimeSampler>(this);
 }

@@ -14,9 +14,12 @@ SpaceTimeSampler::SpaceTimeSampler(const SpaceTimeStateSpace* space)
 
 void SpaceTimeSampler::sampleUniform(ob::State* state) {
   constexpr int kAttempts = 32;
+  constexpr double kStraightShare = 0.5;
   for (int i = 0; i < kAttempts; ++i) {
     ob::State* part = SpaceTimeStateSpace::SpacePart(state);
-    part_sampler_->sampleUniform(part);
+    const bool straight =
+        rng_.uniform01() < kStraightShare && space_time_->OnStraightWay(rng_.uniform01(), part);
+    if (!straight) part_sampler_->sampleUniform(part);
     const auto [earliest_s, last_s] = space_time_->VisitableSeconds(part);
     if (earliest_s > last_s) continue;
     SpaceTimeStateSpace::SetSeconds(state, rng_.uniformReal(earliest_s, last_s));

@@ -8,7 +8,10 @@
 namespace clearway {
 
 // Uniform samples are uniform in space, then uniform over the times at which that place can be
-// visited (SpaceTimeStateSpace::Focus). Samples near a state lie after it, where the speed limits
+// visited (SpaceTimeStateSpace::Focus). Under Focus half of them lie on the straight way from start
+// to goal: past moving things, the right speed on the straight way is often all it takes (Kant and
+// Zucker, "Toward Efficient Trajectory Planning: The Path-Velocity Decomposition", 1986). Samples
+// near a state lie after it, where the speed limits
 // let it go: planners that expand a tree by such samples (EST, KPIECE) would otherwise propose a
 // motion back in time every second time. One thread at a time, as every OMPL sampler.
 class SpaceTimeSampler : public ompl::base::StateSampler {

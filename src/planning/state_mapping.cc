@@ -54,6 +54,10 @@ bool IsFinite(const Pose& pose) {
 
 double Distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 
+Eigen::Quaterniond AboutZ(double yaw_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+}
+
 double AngleBetween(double yaw_a, double yaw_b) {
   return std::abs(std::remainder(yaw_a - yaw_b, 2 * std::numbers::pi));
 }
@@ -80,8 +84,7 @@ StateMapping StateMapping::Se2(const Robot& robot, Ground ground, TimeSource tim
   const double radius_m = FarthestCorner(robot).head<2>().norm();
   auto kinematics = [z_m](const ob::State* state, std::span<Pose> T_W_L) {
     const auto& s = *state->as<Se2State>();
-    SetAll(T_W_L, {Eigen::Quaterniond(Eigen::AngleAxisd(s.getYaw(), Eigen::Vector3d::UnitZ())),
-                   {s.getX(), s.getY(), z_m(s.getX(), s.getY())}});
+    SetAll(T_W_L, {AboutZ(s.getYaw()), {s.getX(), s.getY(), z_m(s.getX(), s.getY())}});
   };
   auto bound = [z_m, radius_m](const ob::State* from, const ob::State* to) {
     const auto& a = *from->as<Se2State>();
@@ -93,13 +96,13 @@ StateMapping StateMapping::Se2(const Robot& robot, Ground ground, TimeSource tim
   return StateMapping(Kind::kSe2, robot.links.size(), kinematics, bound, time);
 }
 
-StateMapping StateMapping::R2(const Robot& robot, Ground ground, TimeSource time) {
+StateMapping StateMapping::R2(const Robot& robot, Ground ground, TimeSource time, double yaw_rad) {
   auto position = [z_m = LinkHeight(robot, std::move(ground))](const ob::State* state) {
     const RState& s = AsR(state);
     return Eigen::Vector3d(s[0], s[1], z_m(s[0], s[1]));
   };
-  auto kinematics = [position](const ob::State* state, std::span<Pose> T_W_L) {
-    SetAll(T_W_L, {Eigen::Quaterniond::Identity(), position(state)});
+  auto kinematics = [position, yaw_rad](const ob::State* state, std::span<Pose> T_W_L) {
+    SetAll(T_W_L, {AboutZ(yaw_rad), position(state)});
   };
   auto bound = [position](const ob::State* from, const ob::State* to) {
     return Distance(position(from), position(to));

@@ -47,6 +47,12 @@ TEST(StateMapping, LowestPointFollowsTheShapesPoses) {
   EXPECT_TRUE(batch.T_W_L[0].rotation.isApprox(Eigen::Quaterniond::Identity()));
 }
 
+TEST(StateMapping, R2KeepsItsYaw) {
+  const auto dut = StateMapping::R2(DeliveryRobot(), {}, FixedTime{kNow}, kHalfTurn / 2);
+  const StateBatch batch = BatchOf(dut, MakeState(MakeRn(2), {3, 1}));
+  EXPECT_TRUE((batch.T_W_L[0] * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(3, 2, 0.6)));
+}
+
 TEST(StateMapping, R3AndSe3AreTheLinksPose) {
   const auto r3 = StateMapping::R3(DeliveryRobot(), FixedTime{kNow});
   EXPECT_TRUE(BatchOf(r3, MakeState(MakeRn(3), {3, 1, 2}))

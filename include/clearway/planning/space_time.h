@@ -26,9 +26,12 @@ struct SpeedLimits {
 //
 // Time has a direction, so this is no metric space: the distance is asymmetric
 // (hasSymmetricDistance is false), and so are motions and their cost (hasSymmetricInterpolate is
-// false, which RRT* reads as "check both ways"). Planners that grow a tree from the start along the
-// direction of motion work on it (RRT, RRT*, EST, KPIECE, ...); those that grow a second tree from
-// the goal do not.
+// false, which RRT* reads as "check both ways").
+//
+// Of OMPL's planners, those that grow one tree from the start along the direction of motion plan in
+// it: RRT, RRT*, RRT#, LBTRRT, EST, ProjEST, KPIECE1, PDST, SST, STRIDE. Those that grow a second
+// tree from the goal or search an implicit graph do not: RRTConnect and BIT* may not come back, and
+// PRM's undirected roadmap yields paths that run back in time (CheckPath tells).
 class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
  public:
   // Times run from 0 to `latest`, seconds after whatever epoch the caller chooses (TimeSince).
@@ -59,6 +62,9 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   // The interval of times at which a state of space() can be visited under Focus; empty (first >
   // second) if at none.
   std::pair<double, double> VisitableSeconds(const ompl::base::State* part) const;
+  // Under Focus: writes the place at `fraction` of the straight way from start to goal and returns
+  // true; else false.
+  bool OnStraightWay(double fraction, ompl::base::State* part) const;
 
   // Unreachable: far above every extent, yet finite, so that a planner that steps a part of the way
   // to an unreachable state proposes a motion that the motion validator refuses (with infinity it

@@ -48,10 +48,10 @@ class StateMapping {
       std::function<double(const ompl::base::State* from, const ompl::base::State* to)>;
 
   // Rigid robots: every link takes the pose of the state. SE(2) states are (x, y) in metres and yaw
-  // in radians about W's z; R^2 keeps W's axes. The link frame's height follows from `ground` and
-  // the robot's shapes. The robot must pass Validate.
+  // in radians about W's z; in R^2 the robot keeps `yaw_rad`. The link frame's height follows from
+  // `ground` and the robot's shapes. The robot must pass Validate.
   static StateMapping Se2(const Robot& robot, Ground ground, TimeSource time);
-  static StateMapping R2(const Robot& robot, Ground ground, TimeSource time);
+  static StateMapping R2(const Robot& robot, Ground ground, TimeSource time, double yaw_rad = 0);
   // SE(3) and R^3 (W's axes kept) states are T_W_L itself.
   static StateMapping Se3(const Robot& robot, TimeSource time);
   static StateMapping R3(const Robot& robot, TimeSource time);

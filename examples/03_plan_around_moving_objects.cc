@@ -1,0 +1,171 @@
+// Plans a delivery robot's way across a road, around where the traffic will be. The scene is in
+// this process, on a server, or mirrored from one; the planning is the same.
+//
+//   03_plan_around_moving_objects --in-process
+//   03_plan_around_moving_objects --remote 127.0.0.1:50151 --planner PDST
+//   03_plan_around_moving_objects --mirror 127.0.0.1:50151
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/geometric/planners/pdst/PDST.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/util/Console.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+
+#include "clearway/client/frame_sender.h"
+#include "clearway/client/remote_checker.h"
+#include "clearway/client/scene_mirror.h"
+#include "clearway/collision/scene_checker.h"
+#include "clearway/planning/earliest_arrival.h"
+#include "clearway/planning/path_check.h"
+#include "clearway/planning/space_information.h"
+#include "clearway/scene/scene_builder.h"
+#include "clearway/sim/scenarios.h"
+
+namespace clearway {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using std::chrono::seconds;
+
+struct Settings {
+  bool in_process = false;
+  std::string remote, mirror;  // or a server's address
+  std::string planner = "RRT";
+  double planning_s = 1.0;
+};
+
+using CheckerPtr = std::shared_ptr<const StateChecker>;
+
+// A scene of our own.
+absl::StatusOr<CheckerPtr> InProcess(const Simulation& simulation, std::size_t frames,
+                                     const Robot& robot) {
+  ThreadPool pool(2);
+  SceneBuilder builder(SceneParams(), FrameLimits(), pool);
+  for (std::size_t k = 0; k < frames; ++k) {
+    if (auto report = builder.Apply(simulation.MakeFrame(k)); !report.ok()) return report.status();
+  }
+  return std::make_shared<SceneChecker>(builder.Publish(), robot);
+}
+
+// A server's scene: checked over there, or mirrored and checked here.
+absl::StatusOr<CheckerPtr> OnServer(const Settings& settings, const Simulation& simulation,
+                                    std::size_t frames, const Robot& robot) {
+  const bool mirrored = settings.remote.empty();
+  auto connection = Connection::Open(mirrored ? settings.mirror : settings.remote);
+  if (!connection.ok()) return connection.status();
+  std::uint64_t version = 0;  // with all our frames in it
+  for (std::size_t k = 0; k < frames; ++k) {
+    const auto ack = FrameSender(*connection).Push(simulation.MakeFrame(k));
+    if (!ack.ok()) return ack.status();
+    version = ack->version;
+  }
+  if (!mirrored) return RemoteChecker::Pin(*connection, robot, {.min_version = version});
+  const auto mirror = SceneMirror::Follow(*connection);
+  if (!mirror.ok()) return mirror.status();
+  const auto scene = (*mirror)->WaitFor(version, seconds(10));
+  if (!scene.ok()) return scene.status();
+  return std::make_shared<SceneChecker>(*scene, robot);
+}
+
+// Plans from the checker's stamp on. From here on nothing depends on where the scene is.
+absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const CheckerPtr& checker,
+                                            const Settings& settings) {
+  // Where: the road and its pavements. How: 2 m/s and 1.5 rad/s at most, done in time.
+  auto plane = std::make_shared<ob::SE2StateSpace>();
+  ob::RealVectorBounds bounds(2);
+  for (int axis : {0, 1}) {
+    bounds.setLow(axis, task.area_W.min[axis]);
+    bounds.setHigh(axis, task.area_W.max[axis]);
+  }
+  plane->setBounds(bounds);
+  const SpeedLimits limits{.translation_mps = task.max_speed_mps, .rotation_radps = 1.5};
+  auto space = std::make_shared<SpaceTimeStateSpace>(plane, limits, task.time_limit);
+
+  // What counts as free: beams leave holes, so some unknown space within the robot is tolerated.
+  PlanningOptions options;
+  options.check.unknown = UnknownPolicy::kTolerated;
+  options.check.max_unknown_fraction = 0.3;
+  options.check.padding_m = 0.1;
+  const auto mapping = StateMapping::Se2(checker->robot(), Ground(), TimeSince{checker->stamp()});
+  const auto si = MakeSpaceInformation(space, checker, mapping, options);
+  if (!si.ok()) return si.status();
+
+  ob::ScopedState<> start(space), goal(space);
+  start = std::vector<double>{task.start_W.x(), task.start_W.y(), std::numbers::pi / 2, 0};
+  goal = std::vector<double>{task.goal_W.x(), task.goal_W.y(), std::numbers::pi / 2, 0};
+  ob::PlannerPtr planner = std::make_shared<og::RRT>(*si);
+  if (settings.planner == "PDST") planner = std::make_shared<og::PDST>(*si);
+  const auto path =
+      PlanEarliestArrival(planner, start.get(), SpaceTimeStateSpace::SpacePart(goal.get()),
+                          GoalOptions(), ob::timedPlannerTerminationCondition(settings.planning_s));
+  if (!path.ok()) return path.status();
+
+  const PathCheck check = CheckPath(**path, *QueryOf(**si));
+  std::printf("%s: %zu states, %s on version %llu, %.0f %% of its volume unknown\n",
+              settings.planner.c_str(), (*path)->getStateCount(), check.free ? "free" : "blocked",
+              static_cast<unsigned long long>(checker->version()), 100 * check.unknown_fraction);
+  (*path)->interpolate(static_cast<unsigned int>(check.answers.size()));
+  return TimedPoses(**path, mapping);
+}
+
+// What the plan would really have touched.
+std::optional<ObjectId> Touched(const Simulation& simulation, const Robot& robot,
+                                const std::vector<TimedPose>& plan) {
+  for (const TimedPose& step : plan) {
+    const auto& shape = robot.links[0].shapes[0].shape;
+    if (auto hit = simulation.world().Touched(shape, step.T_W_L, step.time)) return hit;
+  }
+  return std::nullopt;
+}
+
+absl::Status Run(const Settings& settings) {
+  const absl::StatusOr<Simulation> simulation = MakeScenario("crossing");
+  if (!simulation.ok()) return simulation.status();
+  const CrossingTask& task = simulation->spec().tasks[0];
+  const Robot robot = Robot::SingleShape("delivery", Box{task.robot_size_m});
+
+  const std::size_t frames = task.planning_frame + 1;
+  const auto checker = settings.in_process ? InProcess(*simulation, frames, robot)
+                                           : OnServer(settings, *simulation, frames, robot);
+  if (!checker.ok()) return checker.status();
+  const auto plan = Plan(task, *checker, settings);
+  if (!plan.ok()) return plan.status();
+  for (std::size_t i = 0; i < plan->size(); i += std::max<std::size_t>(1, plan->size() / 10)) {
+    const TimedPose& step = (*plan)[i];
+    std::printf("  %5.2f s  (%6.2f, %6.2f)\n", ToSeconds(step.time - (*checker)->stamp()),
+                step.T_W_L.translation.x(), step.T_W_L.translation.y());
+  }
+  if (const auto hit = Touched(*simulation, robot, *plan)) {
+    return absl::InternalError("the plan touches object " + std::to_string(*hit));
+  }
+  std::printf("arrives after %.2f s and touches nothing\n",
+              ToSeconds(plan->back().time - (*checker)->stamp()));
+  return absl::OkStatus();
+}
+
+}  // namespace
+}  // namespace clearway
+
+int main(int argc, char** argv) {
+  CLI::App app("Plans a robot's way across a road with moving traffic.");
+  clearway::Settings settings;
+  auto* where = app.add_option_group("scene", "Where the scene is");
+  where->add_flag("--in-process", settings.in_process, "In this process");
+  where->add_option("--remote", settings.remote, "On the server at this address");
+  where->add_option("--mirror", settings.mirror, "Mirrored from the server at this address");
+  where->require_option(1);
+  app.add_option("--planner", settings.planner)->check(CLI::IsMember({"RRT", "PDST"}));
+  app.add_option("--planning-time", settings.planning_s, "Seconds to plan for")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
+
+  const absl::Status status = clearway::Run(settings);
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.ToString().c_str());
+  return status.ok() ? 0 : 1;
+}
