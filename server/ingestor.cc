@@ -95,16 +95,14 @@ absl::StatusOr<Ingestor::Ticket> Ingestor::PushWhenRoom(Frame frame, const Gone&
 
 absl::StatusOr<Ingestor::Ticket> Ingestor::Apply(Change change, bool forget_answers) {
   auto job = std::make_unique<Job>();
-  job->change = [this, forget_answers, inner = std::move(change)](SceneBuilder& builder) {
-    const absl::Status status = inner(builder);
-    if (!status.ok() || !forget_answers) return status;
-    std::lock_guard lock(mutex_);
-    answers_.clear();
-    answer_order_.clear();
-    return status;
-  };
+  job->change = std::move(change);
   std::unique_lock lock(mutex_);
-  return Enqueue(lock, std::move(job));
+  absl::StatusOr<Ticket> ticket = Enqueue(lock, std::move(job));
+  if (!ticket.ok() || !forget_answers) return ticket;
+  // Now, not when the change is applied: frames that come in between belong to what follows it.
+  answers_.clear();
+  answer_order_.clear();
+  return ticket;
 }
 
 Ingestor::Answer Ingestor::Wait(const Ticket& ticket, const Gone& gone) {

@@ -57,7 +57,8 @@ class Ingestor {
   absl::StatusOr<Ticket> Push(Frame frame);
   // As Push, but waits for room in the queue; CANCELLED once `gone`.
   absl::StatusOr<Ticket> PushWhenRoom(Frame frame, const Gone& gone);
-  // Queues a change beside the frames; `forget_answers` for one that begins the scene anew.
+  // Queues a change beside the frames; `forget_answers` for one that begins the scene
+  // anew: frames pushed before it may then be pushed again.
   absl::StatusOr<Ticket> Apply(Change change, bool forget_answers = false);
   // The answer; CANCELLED once `gone` (the frame is applied all the same).
   static Answer Wait(const Ticket& ticket, const Gone& gone);

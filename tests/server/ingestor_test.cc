@@ -107,6 +107,21 @@ TEST_F(IngestorTest, ResetForgetsAnswersAndStamps) {
   EXPECT_EQ(again->version, 4u);
 }
 
+TEST_F(IngestorTest, AFramePushedWhileAResetWaitsIsRememberedAfterIt) {
+  std::promise<void> release = Block();
+  ASSERT_TRUE(dut_->Apply(
+                      [](SceneBuilder& builder) {
+                        builder.Reset();
+                        return absl::OkStatus();
+                      },
+                      true)
+                  .ok());
+  const auto first = dut_->Push(Numbered(1, 1));
+  release.set_value();
+  ASSERT_TRUE(Ingestor::Wait(*first, kNever).ok());
+  EXPECT_TRUE(Push(Numbered(1, 1))->repeated_answer);
+}
+
 TEST_F(IngestorTest, AFullQueueRefusesAndTheFrameMayComeAgain) {
   std::promise<void> release = Block();
   ASSERT_TRUE(dut_->Push(Numbered(1, 1)).ok());

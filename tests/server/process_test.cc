@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
@@ -160,6 +161,38 @@ TEST(ServerProcess, RefusesToBeReachedFromElsewhereWithoutTls) {
   Process dut({"--listen", "0.0.0.0:0"});
   EXPECT_NE(dut.RestOfOutput().find("tls_cert"), std::string::npos);
   EXPECT_EQ(dut.Wait(), 2);
+}
+
+TEST(ServerProcess, ServesTls) {
+  const TemporaryFolder folder;
+  const std::string cert = (folder / "cert.pem").string(), key = (folder / "key.pem").string();
+  const std::string make =
+      "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj "
+      "/CN=localhost -addext subjectAltName=DNS:localhost,IP:127.0.0.1 -keyout " +
+      key + " -out " + cert + " 2>/dev/null";
+  if (std::system(make.c_str()) != 0) {
+    std::printf("openssl is missing: TLS was not tried\n");
+    return;
+  }
+  Process dut({"--listen", "0.0.0.0:0", "--tls-cert", cert, "--tls-key", key});
+  const std::string address = dut.Address();
+  ASSERT_FALSE(address.empty()) << dut.RestOfOutput();
+  const std::string port = address.substr(address.rfind(':'));
+  ConnectionOptions options;
+  options.retry_for = std::chrono::milliseconds(200);
+  EXPECT_FALSE(Connection::Open("localhost" + port, options).ok());  // plain text
+  options.tls_root_certificates_file = cert;
+  const auto connection = Connection::Open("localhost" + port, options);
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+  options.tls_root_certificates_file = (folder / "missing.pem").string();
+  EXPECT_TRUE(absl::IsNotFound(Connection::Open(address, options).status()));
+}
+
+TEST(ServerProcess, RefusesCertificatesThatCannotBeRead) {
+  Process dut({"--listen", "0.0.0.0:0", "--tls-cert", "/nowhere", "--tls-key", "/nowhere"});
+  EXPECT_NE(dut.RestOfOutput().find("tls_cert"), std::string::npos);
+  EXPECT_EQ(dut.Wait(), 1);
 }
 
 TEST(ServerProcess, PrintsItsConfiguration) {
