@@ -45,19 +45,22 @@ void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
                    "A robot file (docs/formats.md), or one shape:\nbox:x,y,z  sphere:radius  "
                    "cylinder:radius,length\ncapsule:radius,length")
       ->required();
-  AddParsedList(
-      command, "--state", &flags->states, ParseState,
-      "x,y,z,yaw or x,y,z,yaw,t of the robot's base;\nt as +1.5 after the newest stamp, or "
-      "absolute\n(may be repeated)");
-  command->add_option(
-      "--states", flags->states_file,
-      "A CSV file of states with the columns x,y,z,yaw\n(or qx,qy,qz,qw) and t; - is "
-      "stdin");
+  AddParsedList(command, "--state", &flags->states, ParseState,
+                "Pose of the robot's base, in metres and radians; T as\n+1.5 after the newest "
+                "stamp, or absolute\n(may be repeated)")
+      ->type_name("X,Y,Z,YAW[,T]");
+  command
+      ->add_option("--states", flags->states_file,
+                   "A CSV file of states with the columns x,y,z,yaw\n(or qx,qy,qz,qw) and t; - is "
+                   "stdin")
+      ->type_name("FILE");
   AddParsed(command, "--unknown", &flags->unknown, ParseUnknown,
             "Unknown space is blocked, free, or tolerated up to\na share of the robot's volume, as "
-            "0.1\n(default: blocked)");
+            "0.1\n(default: blocked)")
+      ->type_name("POLICY");
   AddParsedList(command, "--known-free", &flags->known_free, ParseBox,
-                "A box x0,y0,z0,x1,y1,z1 where unknown space is\nfree (may be repeated)");
+                "A box where unknown space is free (may be repeated)")
+      ->type_name("X,Y,Z,X,Y,Z");
   command->add_option("--padding", flags->padding_m, "Metres added all round the robot")
       ->check(CLI::NonNegativeNumber.description(""));
   command

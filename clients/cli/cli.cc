@@ -57,7 +57,7 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal) {
   CLI::App app("Clearway: is this robot state free at that time? A client of clearway-server.",
                "clearway");
   app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(kFooter);
   Cli cli{app, terminal, nullptr};
   AddAllCommands(cli);
@@ -65,6 +65,10 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return Explain(app, error, terminal);
+  }
+  if (!cli.action) {
+    terminal.err << "clearway: give a command; 'clearway --help' lists them\n";
+    return kExitUsage;
   }
   const absl::Status status = cli.action();
   terminal.out.flush();

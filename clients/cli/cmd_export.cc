@@ -124,12 +124,16 @@ void AddExport(Cli& cli) {
   AddParsed(
       command, "--what", &flags->what, ParseExportTarget,
       "static (default), object:ID in its own frame, or\nscene@TIME: everything as it is then "
-      "(scene: now)");
+      "(scene: now)")
+      ->type_name("MAP");
   AddParsed(
       command, "--format", &flags->format, ParseMapFormat,
       "bt (OctoMap, three-way), ot (OctoMap, log-odds), ply\n(occupied voxels); default: by the "
-      "file's name");
-  command->add_option("-o,--out", flags->out, "The file to write; - is stdout")->required();
+      "file's name")
+      ->type_name("FORMAT");
+  command->add_option("-o,--out", flags->out, "The file to write; - is stdout")
+      ->required()
+      ->type_name("FILE");
   command->add_flag("--json", flags->json, "Print a summary as JSON");
   AddServerFlags(command, &flags->server);
 }

@@ -136,9 +136,9 @@ void AddObjects(Cli& cli) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = AddCommand(cli, "objects", "List the moving objects", kExamples,
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
-  AddParsed(
-      command, "--time", &flags->time, ParseTime,
-      "Also where they are then: +seconds after the\nnewest stamp, or seconds of sensor time");
+  AddParsed(command, "--time", &flags->time, ParseTime,
+            "Also where they are then: +seconds after the\nnewest stamp, or seconds of sensor time")
+      ->type_name("TIME");
   command->add_flag("--json", flags->json, "Print JSON");
   AddServerFlags(command, &flags->server);
 }

@@ -46,20 +46,24 @@ void AddOccupancy(Cli& cli) {
   auto flags = std::make_shared<OccupancyFlags>();
   CLI::App* command = AddCommand(cli, "occupancy", "Ask what is where, now or later", kExamples,
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
-  AddParsedList(command, "--at", &flags->points, ParsePoint,
-                "A point x,y,z in metres (several: --at ... --at ...)");
-  AddParsed(command, "--box", &flags->box, ParseBox, "Count the cells of a box x0,y0,z0,x1,y1,z1");
+  AddParsedList(command, "--at", &flags->points, ParsePoint, "A point in metres (may be repeated)")
+      ->type_name("X,Y,Z");
+  AddParsed(command, "--box", &flags->box, ParseBox,
+            "Count the cells of a box, given by two corners")
+      ->type_name("X,Y,Z,X,Y,Z");
   AddParsed(command, "--slice", &flags->slice_z_m, ParseFinite,
-            "Draw the horizontal slice at this height");
-  AddParsed(
-      command, "--area", &flags->area, ParseArea,
-      "Of the slice: x0,y0,x1,y1 (default: all that is\nknown and within 50 m of its middle)");
+            "Draw the horizontal slice at this height")
+      ->type_name("Z");
+  AddParsed(command, "--area", &flags->area, ParseArea,
+            "Of the slice, by two corners (default: all that is\nknown within 50 m of its middle)")
+      ->type_name("X,Y,X,Y");
   command
       ->add_option("--cell", flags->cell_m, "Of the slice: cell size in metres\n(default: a voxel)")
       ->check(CLI::PositiveNumber.description(""));
   AddParsedList(command, "--time", &flags->times, ParseTime,
                 "+seconds after the newest stamp, or seconds of\nsensor time (default: now; may be "
-                "repeated)");
+                "repeated)")
+      ->type_name("TIME");
   command->add_flag("--json", flags->json, "Print JSON");
   AddServerFlags(command, &flags->server);
 }

@@ -1,4 +1,5 @@
 // clearway replay: frames of any source to a server.
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -105,6 +106,13 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
   }
 }
 
+// Not an error: coarser maps are often wanted.
+void NoteResolution(const FrameSource& source, const SceneParams& params, std::ostream& err) {
+  if (std::abs(source.resolution_m - params.resolution_m) < 1e-9) return;
+  err << "note: these frames suit voxels of " << source.resolution_m << " m; the server has "
+      << params.resolution_m << " m (clearway-server --scene-resolution-m)\n";
+}
+
 absl::Status CheckRange(const Flags& flags, std::size_t frame_count) {
   if (frame_count == 0) return absl::FailedPreconditionError(flags.spec + ": holds no frames");
   const std::size_t to = flags.to.value_or(frame_count - 1);
@@ -126,6 +134,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const std::size_t end = flags.to ? *flags.to + 1 : source->frame_count;
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
+
+  if (!flags.quiet) NoteResolution(*source, (*connection)->server().params, terminal.err);
 
   AckTally tally;
   FrameSender sender(*connection);

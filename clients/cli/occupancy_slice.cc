@@ -11,6 +11,7 @@ namespace clearway::cli {
 namespace {
 
 constexpr double kDefaultReach_m = 50;
+constexpr int kLabelColumns = 11;  // "    12.3 | "
 
 absl::StatusOr<Aabb> AreaOf(const OccupancyFlags& flags, const ServerStatus& scene) {
   if (flags.area) return *flags.area;
@@ -60,18 +61,19 @@ Json AsJson(const SliceOccupancy& slice, const SliceQuestion& question,
 
 void PrintText(const SliceOccupancy& slice, const SliceQuestion& question,
                std::span<const Time> times, const Terminal& terminal) {
-  const int width = std::max(20, terminal.columns);
+  const int width = std::max(20, terminal.columns - kLabelColumns);
   const int fold = std::max(1, (static_cast<int>(slice.columns) + width - 1) / width);
   terminal.out << "z " << Fixed(question.z_m, 2) << " m, x " << Fixed(question.min_W.x(), 1)
                << " to " << Fixed(question.max_W.x(), 1) << " m, y " << Fixed(question.min_W.y(), 1)
-               << " to " << Fixed(question.max_W.y(), 1) << " m (y up); a character is "
+               << " to " << Fixed(question.max_W.y(), 1) << " m (y at the left); a character is "
                << Fixed(fold * slice.cell_m, 2) << " x " << Fixed(2 * fold * slice.cell_m, 2)
                << " m\n"
                << kSliceLegend << "\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
     terminal.out << "\nat " << Seconds(times[i]) << " (scene version " << slice.version
                  << ", newest stamp " << Seconds(slice.stamp) << ")\n"
-                 << FoldedPicture(CellRows(slice, i), fold, 2 * fold);
+                 << PictureOf(FoldedLines(CellRows(slice, i), fold, 2 * fold), question.min_W.y(),
+                              2 * fold * slice.cell_m);
   }
 }
 

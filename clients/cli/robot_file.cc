@@ -84,7 +84,9 @@ absl::StatusOr<RobotFile> LoadRobot(const std::string& file_or_shape) {
   if (error && file_or_shape.find(':') != std::string::npos) {
     auto shape = ParseShapeText(file_or_shape);
     if (!shape.ok()) return UsageError(absl::StrCat("--robot: ", shape.status().message()));
-    return RobotFile{Robot::SingleShape(file_or_shape, *std::move(shape)), {Pose{}}};
+    RobotFile file{Robot::SingleShape(file_or_shape, *std::move(shape)), {Pose{}}};
+    file.robot.links[0].name = "body";
+    return file;
   }
   std::ifstream stream(file_or_shape, std::ios::binary);
   if (error || !stream) {

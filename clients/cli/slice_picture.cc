@@ -1,6 +1,6 @@
 #include "cli/slice_picture.h"
 
-#include <algorithm>
+#include "absl/strings/str_format.h"
 
 namespace clearway::cli {
 namespace {
@@ -55,22 +55,30 @@ std::vector<std::string> CellRows(const SliceOccupancy& slice, std::size_t time_
   return rows;
 }
 
-std::string FoldedPicture(const std::vector<std::string>& rows, int columns_per_char,
-                          int rows_per_char) {
+std::vector<std::string> FoldedLines(const std::vector<std::string>& rows, int columns_per_char,
+                                     int rows_per_char) {
   const int height = static_cast<int>(rows.size());
   const int width = height == 0 ? 0 : static_cast<int>(rows[0].size());
-  const int lines = (height + rows_per_char - 1) / rows_per_char;
-  std::string picture;
-  for (int line = lines - 1; line >= 0; --line) {
-    std::string text((width + columns_per_char - 1) / columns_per_char, ' ');
-    for (int y = line * rows_per_char; y < std::min(height, (line + 1) * rows_per_char); ++y) {
-      for (int x = 0; x < width; ++x) {
-        char& folded = text[x / columns_per_char];
-        if (Weight(rows[y][x]) > Weight(folded)) folded = rows[y][x];
-      }
+  std::vector<std::string> lines(
+      (height + rows_per_char - 1) / rows_per_char,
+      std::string((width + columns_per_char - 1) / columns_per_char, ' '));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      char& folded = lines[y / rows_per_char][x / columns_per_char];
+      if (Weight(rows[y][x]) > Weight(folded)) folded = rows[y][x];
     }
-    text.erase(text.find_last_not_of(' ') + 1);
-    picture += text + "\n";
+  }
+  for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
+  return lines;
+}
+
+std::string PictureOf(const std::vector<std::string>& lines, double min_y_m, double line_m) {
+  int first = 0, end = static_cast<int>(lines.size());
+  while (first < end && lines[first].empty()) ++first;
+  while (end > first && lines[end - 1].empty()) --end;
+  std::string picture;
+  for (int line = end - 1; line >= first; --line) {
+    absl::StrAppendFormat(&picture, "%8.1f | %s\n", min_y_m + (line + 0.5) * line_m, lines[line]);
   }
   return picture;
 }

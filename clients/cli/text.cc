@@ -10,9 +10,8 @@ namespace clearway::cli {
 std::string Fixed(double value, int decimals) { return absl::StrFormat("%.*f", decimals, value); }
 
 std::string Grouped(std::uint64_t count) {
-  std::string digits = absl::StrCat(count);
-  for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3) digits.insert(i, ",");
-  return digits;
+  if (count < 1000) return absl::StrCat(count);
+  return absl::StrCat(Grouped(count / 1000), ",", absl::Dec(count % 1000, absl::kZeroPad3));
 }
 
 std::string Scaled(double value) {

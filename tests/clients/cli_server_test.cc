@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "absl/strings/str_cat.h"
 #include "clients/server_process.h"
 #include "clients/subprocess.h"
 #include "support/temporary_folder.h"
@@ -49,12 +50,10 @@ class CliServer : public ::testing::Test {
       if (candidate["speed_mps"] < 0.1) continue;
       *object = candidate;
       const json& box = candidate["box_world"];
-      std::string point;
-      for (int i = 0; i < 3; ++i) {
-        const double middle = (box["min_m"][i].get<double>() + box["max_m"][i].get<double>()) / 2;
-        point += (i == 0 ? "" : ",") + std::to_string(middle);
-      }
-      return point;
+      const auto middle = [&box](int axis) {
+        return (box["min_m"][axis].get<double>() + box["max_m"][axis].get<double>()) / 2;
+      };
+      return absl::StrCat(middle(0), ",", middle(1), ",", middle(2));
     }
     ADD_FAILURE() << "nothing moves: " << objects.dump();
     return "0,0,0";

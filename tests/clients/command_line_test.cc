@@ -26,7 +26,7 @@ std::vector<std::string> Commands() {
 TEST(CommandLine, Empty) {
   const Finished dut = Clearway({});
   EXPECT_EQ(dut.exit_code, 2);
-  EXPECT_THAT(dut.err, StartsWith("clearway: A subcommand is required"));
+  EXPECT_THAT(dut.err, StartsWith("clearway: give a command"));
   EXPECT_THAT(dut.out, IsEmpty());
 }
 

@@ -17,7 +17,8 @@ ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
     dup2(ends[1], STDOUT_FILENO);
     close(ends[0]);
     close(ends[1]);
-    std::vector<std::string> arguments = {CLEARWAY_SERVER_BINARY, "--listen", "127.0.0.1:0"};
+    std::vector<std::string> arguments = {CLEARWAY_SERVER_BINARY, "--listen", "127.0.0.1:0",
+                                          "--log-level", "warn"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     Exec(arguments);
   }

@@ -14,7 +14,12 @@ SliceOccupancy SliceOf(std::uint32_t columns, std::uint32_t rows) {
   return slice;
 }
 
-TEST(SlicePicture, Empty) { EXPECT_EQ(FoldedPicture({}, 1, 1), ""); }
+using Lines = std::vector<std::string>;
+
+TEST(SlicePicture, Empty) {
+  EXPECT_EQ(FoldedLines({}, 1, 1), Lines{});
+  EXPECT_EQ(PictureOf({}, 0, 1), "");
+}
 
 TEST(SlicePicture, TellsObjectsFromTheStaticMap) {
   EXPECT_EQ(SymbolOf(SpaceStatus::kOccupied, 0), '#');
@@ -27,7 +32,8 @@ TEST(SlicePicture, TellsObjectsFromTheStaticMap) {
 TEST(SlicePicture, DrawsTheHighestYFirst) {
   SliceOccupancy slice = SliceOf(3, 2);
   slice.cells[3] = SpaceStatus::kOccupied;  // x 0, y 1
-  EXPECT_EQ(FoldedPicture(CellRows(slice, 0), 1, 1), "#..\n...\n");
+  EXPECT_EQ(PictureOf(FoldedLines(CellRows(slice, 0), 1, 1), -1, 1),
+            "     0.5 | #..\n    -0.5 | ...\n");
 }
 
 TEST(SlicePicture, FoldingLosesNothingThatBlocks) {
@@ -36,7 +42,11 @@ TEST(SlicePicture, FoldingLosesNothingThatBlocks) {
   slice.cells[6] = SpaceStatus::kOccupied;
   slice.objects[6] = 2;
   slice.cells[14] = SpaceStatus::kUnknownSpace;
-  EXPECT_EQ(FoldedPicture(CellRows(slice, 0), 2, 2), "..\n2..\n");
+  EXPECT_EQ(FoldedLines(CellRows(slice, 0), 2, 2), (Lines{"2..", ".."}));
+}
+
+TEST(SlicePicture, LeavesOutLinesAtTheEndsOnly) {
+  EXPECT_EQ(PictureOf({"", "#", "", ".", ""}, 0, 2), "     7.0 | .\n     5.0 | \n     3.0 | #\n");
 }
 
 TEST(SlicePicture, KeepsTimesApart) {
@@ -51,7 +61,7 @@ TEST(SlicePicture, KeepsTimesApart) {
 TEST(SlicePicture, SurvivesAnAnswerThatIsTooShort) {
   SliceOccupancy slice = SliceOf(2, 2);
   slice.cells.resize(1);
-  EXPECT_EQ(FoldedPicture(CellRows(slice, 0), 1, 1), "\n.\n");
+  EXPECT_EQ(FoldedLines(CellRows(slice, 0), 1, 1), (Lines{".", ""}));
 }
 
 }  // namespace
