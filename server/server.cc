@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
 constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
-constexpr int kSpareThreads = 64;              // of gRPC's own, beyond one per call
+constexpr int kSpareThreads = 64;                       // of gRPC's own, beyond one per call
 
 absl::StatusOr<std::string> ReadPem(const char* key, const std::string& path) {
   std::ifstream file(path);
