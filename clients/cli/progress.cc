@@ -62,11 +62,13 @@ void ProgressBar::Update(std::size_t done, std::uint64_t points) {
 void ProgressBar::Finish() {
   if (finished_) return;
   finished_ = true;
-  Draw();
+  // A line that already says so need not be repeated; a terminal's is redrawn.
+  if (is_terminal_ || drawn_ != state_.done) Draw();
   if (is_terminal_) out_ << "\n" << std::flush;
 }
 
 void ProgressBar::Draw() {
+  drawn_ = state_.done;
   if (is_terminal_) {
     // Back to the line's start; clear what a longer line before left behind.
     out_ << "\r" << ProgressText(state_, kBarColumns) << "\x1b[K" << std::flush;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -39,6 +40,7 @@ class ProgressBar {
   const std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point next_draw_;
   ProgressState state_;
+  std::optional<std::size_t> drawn_;  // frames done when it was drawn last
   bool finished_ = false;
 };
 

@@ -18,7 +18,7 @@ ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
     close(ends[0]);
     close(ends[1]);
     std::vector<std::string> arguments = {CLEARWAY_SERVER_BINARY, "--listen", "127.0.0.1:0",
-                                          "--log-level", "warn"};
+                                          "--log-level", "warning"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     Exec(arguments);
   }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "cli/progress.h"
 
 namespace clearway::cli {
@@ -26,9 +29,10 @@ TEST(Progress, IsPlainLinesElsewhere) {
   dut.Update(3, 10);
   dut.Finish();
   dut.Finish();
-  EXPECT_EQ(out.str().find('\r'), std::string::npos);
-  EXPECT_TRUE(out.str().starts_with("3/3 frames")) << out.str();
-  EXPECT_EQ(std::count(out.str().begin(), out.str().end(), '\n'), 1);
+  const std::string text = out.str();
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_TRUE(text.starts_with("3/3 frames")) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
 }
 
 TEST(Progress, RedrawsItsLineOnATerminal) {
