@@ -2,11 +2,12 @@
 // this process, on a server, or mirrored from one; the planning is the same.
 //
 //   03_plan_around_moving_objects --in-process
-//   03_plan_around_moving_objects --remote 127.0.0.1:50151 --planner PDST
+//   clearway-server --scene-horizon-s 12 &
+//   03_plan_around_moving_objects --remote 127.0.0.1:50151 --planner EST
 //   03_plan_around_moving_objects --mirror 127.0.0.1:50151
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/geometric/planners/pdst/PDST.h>
+#include <ompl/geometric/planners/est/EST.h>
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/util/Console.h>
 
@@ -36,7 +37,7 @@ struct Settings {
   bool in_process = false;
   std::string remote, mirror;  // or a server's address
   std::string planner = "RRT";
-  double planning_s = 1.0;
+  double planning_s = 3;
 };
 
 using CheckerPtr = std::shared_ptr<const StateChecker>;
@@ -45,7 +46,9 @@ using CheckerPtr = std::shared_ptr<const StateChecker>;
 absl::StatusOr<CheckerPtr> InProcess(const Simulation& simulation, std::size_t frames,
                                      const Robot& robot) {
   ThreadPool pool(2);
-  SceneBuilder builder(SceneParams(), FrameLimits(), pool);
+  SceneParams params;
+  params.horizon = seconds(12);  // beyond it, whatever a moving object could reach is not free
+  SceneBuilder builder(params, FrameLimits(), pool);
   for (std::size_t k = 0; k < frames; ++k) {
     if (auto report = builder.Apply(simulation.MakeFrame(k)); !report.ok()) return report.status();
   }
@@ -86,12 +89,19 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   const SpeedLimits limits{.translation_mps = task.max_speed_mps, .rotation_radps = 1.5};
   auto space = std::make_shared<SpaceTimeStateSpace>(plane, limits, task.time_limit);
 
-  // What counts as free: beams leave holes, so some unknown space within the robot is tolerated.
+  // What counts as free. Beams leave holes, so some unknown space within the robot is tolerated.
+  // Traffic may not do what its motion predicts, so the robot keeps clear of everything, and of
+  // moving objects the more the longer the prediction.
   PlanningOptions options;
   options.check.unknown = UnknownPolicy::kTolerated;
   options.check.max_unknown_fraction = 0.3;
-  options.check.padding_m = 0.1;
-  const auto mapping = StateMapping::Se2(checker->robot(), Ground(), TimeSince{checker->stamp()});
+  options.check.padding_m = 0.15;
+  options.check.inflation_mps = 0.2;
+  options.step_m = 0.1;
+  options.time_step = std::chrono::milliseconds(50);
+  Ground ground;
+  ground.clearance_m = options.check.padding_m + 0.1;  // one voxel
+  const auto mapping = StateMapping::Se2(checker->robot(), ground, TimeSince{checker->stamp()});
   const auto si = MakeSpaceInformation(space, checker, mapping, options);
   if (!si.ok()) return si.status();
 
@@ -99,7 +109,7 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   start = std::vector<double>{task.start_W.x(), task.start_W.y(), std::numbers::pi / 2, 0};
   goal = std::vector<double>{task.goal_W.x(), task.goal_W.y(), std::numbers::pi / 2, 0};
   ob::PlannerPtr planner = std::make_shared<og::RRT>(*si);
-  if (settings.planner == "PDST") planner = std::make_shared<og::PDST>(*si);
+  if (settings.planner == "EST") planner = std::make_shared<og::EST>(*si);
   const auto path =
       PlanEarliestArrival(planner, start.get(), SpaceTimeStateSpace::SpacePart(goal.get()),
                           GoalOptions(), ob::timedPlannerTerminationCondition(settings.planning_s));
@@ -159,7 +169,7 @@ int main(int argc, char** argv) {
   where->add_option("--remote", settings.remote, "On the server at this address");
   where->add_option("--mirror", settings.mirror, "Mirrored from the server at this address");
   where->require_option(1);
-  app.add_option("--planner", settings.planner)->check(CLI::IsMember({"RRT", "PDST"}));
+  app.add_option("--planner", settings.planner)->check(CLI::IsMember({"RRT", "EST"}));
   app.add_option("--planning-time", settings.planning_s, "Seconds to plan for")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

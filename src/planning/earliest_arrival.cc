@@ -26,16 +26,30 @@ absl::Status NoPath(const ob::Planner& planner) {
   return absl::NotFoundError(message);
 }
 
+// Goes from each state to the last one that can be reached directly.
+PathPtr Straightened(const og::PathGeometric& path) {
+  const ob::SpaceInformationPtr& si = path.getSpaceInformation();
+  auto result = std::make_shared<og::PathGeometric>(si, path.getState(0));
+  std::size_t at = 0;
+  while (at + 1 < path.getStateCount()) {
+    std::size_t next = path.getStateCount() - 1;
+    while (next > at + 1 && !si->checkMotion(path.getState(at), path.getState(next))) --next;
+    result->append(path.getState(next));
+    at = next;
+  }
+  return result;
+}
+
 // Null if there is no exact solution.
 PathPtr SolveOnce(ob::Planner& planner, const ob::ProblemDefinitionPtr& problem,
                   const ob::PlannerTerminationCondition& until) {
   planner.clear();
   planner.setProblemDefinition(problem);
-  planner.setup();
+  if (!planner.isSetup()) planner.setup();
   planner.solve(ob::plannerOrTerminationCondition(
       until, ob::PlannerTerminationCondition([&] { return problem->hasExactSolution(); })));
   if (!problem->hasExactSolution()) return nullptr;
-  return std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+  return Straightened(*problem->getSolutionPath()->as<og::PathGeometric>());
 }
 
 Duration ArrivalOf(og::PathGeometric& path) {

@@ -14,7 +14,9 @@ namespace clearway {
 
 // Solves MakeSpaceTimeProblem with `planner`, then again and again for an arrival at least
 // `improvement` (above zero) earlier, until `until` holds or full speed admits no earlier arrival.
-// Each round searches a smaller space than the one before. Returns the path that arrives first.
+// Each round searches a smaller space than the one before, and its path is straightened: states are
+// left out between which the robot may as well go at constant speed. Returns the path that arrives
+// first.
 // Errors: MakeSpaceTimeProblem's; NOT_FOUND if no round found a path, with the checker's first
 // error in the message if there was one; INTERNAL if OMPL throws.
 absl::StatusOr<std::shared_ptr<ompl::geometric::PathGeometric>> PlanEarliestArrival(

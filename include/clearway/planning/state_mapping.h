@@ -19,7 +19,8 @@ namespace clearway {
 
 // Where a ground robot stands. Its lowest point (of its shapes' boxes, when upright) is kept
 // `clearance_m` above the ground at its (x, y), so that the ground's own voxels do not block it;
-// one voxel is enough on even ground.
+// one voxel is enough on even ground, plus CheckOptions::padding_m, which grows the robot downwards
+// too.
 struct Ground {
   // z of the ground at (x, y), metres in W. Must be callable from any thread, and finite.
   std::function<double(double x_m, double y_m)> height_m = [](double, double) { return 0.0; };
