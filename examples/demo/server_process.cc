@@ -1,6 +1,7 @@
 #include "demo/server_process.h"
 
 #include <fcntl.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,7 +30,11 @@ absl::StatusOr<std::unique_ptr<ServerProcess>> ServerProcess::Start(
   arguments.push_back(nullptr);
 
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, binary.c_str(), nullptr, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_t actions;  // its errors are for us to see, its greeting is not
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  const int error = posix_spawn(&pid, binary.c_str(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
     std::filesystem::remove_all(folder);
     return absl::NotFoundError(absl::StrCat("cannot start '", binary, "': ", std::strerror(error)));
