@@ -20,7 +20,8 @@ constexpr char kPrefix[] = "CLEARWAY_";
 // Names that other parts of Clearway read.
 const std::set<std::string>& ForeignNames() {
   static const auto* const kNames =
-      new std::set<std::string>{"CLEARWAY_CONFIG", "CLEARWAY_DATA", "CLEARWAY_SERVER"};
+      new std::set<std::string>{"CLEARWAY_ADDRESS", "CLEARWAY_ALL_FRAMES", "CLEARWAY_CONFIG",
+                                "CLEARWAY_DATA",    "CLEARWAY_JOBS",       "CLEARWAY_SERVER"};
   return *kNames;
 }
 
