@@ -1,7 +1,6 @@
 #include "demo/server_process.h"
 
 #include <fcntl.h>
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,10 +9,27 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include "absl/strings/str_cat.h"
 
 namespace clearway::demo {
+namespace {
+
+// The server listens once its socket is there; it loads and binds before, which a busy machine may
+// draw out.
+absl::Status WaitForSocket(const std::string& path, pid_t server) {
+  for (int tries = 0; tries < 1500; ++tries) {
+    if (std::filesystem::exists(path)) return absl::OkStatus();
+    if (waitpid(server, nullptr, WNOHANG) != 0) {
+      return absl::InternalError("the server ended before it listened; its message is above");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return absl::DeadlineExceededError("the server did not listen within 30 s");
+}
+
+}  // namespace
 
 absl::StatusOr<std::unique_ptr<ServerProcess>> ServerProcess::Start(
     const std::string& binary, const std::vector<std::string>& flags) {
@@ -39,7 +55,10 @@ absl::StatusOr<std::unique_ptr<ServerProcess>> ServerProcess::Start(
     std::filesystem::remove_all(folder);
     return absl::NotFoundError(absl::StrCat("cannot start '", binary, "': ", std::strerror(error)));
   }
-  return std::unique_ptr<ServerProcess>(new ServerProcess(folder, address, pid));
+  std::unique_ptr<ServerProcess> process(new ServerProcess(folder, address, pid));
+  const absl::Status listening = WaitForSocket(folder + "/socket", pid);
+  if (!listening.ok()) return listening;
+  return process;
 }
 
 ServerProcess::~ServerProcess() {
