@@ -17,12 +17,12 @@ namespace clearway::demo {
 struct PlanSettings {
   // Predictions are not the truth: to keep clear of everything, and per second more of what moves.
   double margin_m = 0.15;
-  double inflation_mps = 0.3;
+  double inflation_mps = 0.2;
   // Between sparse beams there are holes that no ray has crossed.
   double max_unknown_fraction = 0.5;
   double ground_clearance_m = 0.2;  // of the robot over the fitted ground: two voxels
   double max_turn_radps = 1.5;
-  unsigned int iterations = 4000;  // of the planner, for a first path
+  unsigned int iterations = 12000;  // of the planner, for a first path
   std::vector<ObjectId> ignored_objects;
 };
 
