@@ -83,6 +83,7 @@ ObjectInfo DescribeObject(const MovingObject& object) {
   info.speed_mps = object.SpeedMps();
   info.box_O = object.solid->box_O;
   info.box_W = Transformed(info.T_W_O, info.box_O);
+  info.extent = ExtentOf(object);
   info.observed_voxels = object.map_O.observed_count();
   info.occupied_voxels = object.map_O.occupied_count();
   info.first_seen = object.first_seen;

@@ -151,6 +151,8 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,
                        "objects unseen for longer are dropped"),
       CLEARWAY_SETTING("scene.history_s", scene.history, "how far back poses are kept"),
+      CLEARWAY_SETTING("scene.rest_distance_m", scene.rest_distance_m,
+                       "objects that stay within it for a second are at rest"),
       CLEARWAY_SETTING("scene.bounds_m", scene.bounds_W, "box: x y z of its corners"),
       CLEARWAY_SETTING("scene.keep_out_m", scene.keep_out_W, "boxes that read as occupied"),
       CLEARWAY_SETTING("scene.self_filter_m", scene.self_filter_S,

@@ -67,6 +67,8 @@ void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
       ->add_option("--inflation", flags->inflation_mps,
                    "Metres added round each moving object per second\nof prediction")
       ->check(CLI::NonNegativeNumber.description(""));
+  command->add_flag("--inflate-moving-only", flags->inflate_moving_only,
+                    "No inflation of objects known to be at rest");
   command
       ->add_option("--clearance", flags->clearance_m,
                    "Also the distance to what blocks, up to this many\nmetres")
@@ -109,6 +111,7 @@ absl::StatusOr<CheckOptions> CheckOptionsOf(const CheckFlags& flags, const Robot
   options.known_free_W = flags.known_free;
   options.padding_m = flags.padding_m;
   options.inflation_mps = flags.inflation_mps;
+  options.inflate_moving_only = flags.inflate_moving_only;
   options.ignored_objects = flags.ignore;
   options.clearance_up_to_m = flags.clearance_m;
   for (const std::string& text : flags.allow) {

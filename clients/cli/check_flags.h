@@ -29,6 +29,7 @@ struct CheckFlags {
   std::vector<Aabb> known_free;
   double padding_m = 0;
   double inflation_mps = 0;
+  bool inflate_moving_only = false;
   std::optional<double> clearance_m;
   std::vector<ObjectId> ignore;
   std::vector<std::string> allow;

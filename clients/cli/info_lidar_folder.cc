@@ -60,7 +60,7 @@ std::string TableOf(const std::map<ObjectId, Track>& tracks) {
   Table table({"id", "type", "frames", "points", "size", "path m"});
   for (const auto& [id, track] : tracks) {
     table.AddRow({absl::StrCat(id), track.type, Grouped(track.frames), Grouped(track.points),
-                  Size(Aabb{-track.size_m / 2, track.size_m / 2}), Fixed(track.path_m, 1)});
+                  Size(track.size_m), Fixed(track.path_m, 1)});
   }
   return table.ToString();
 }

@@ -19,7 +19,7 @@ absl::StatusOr<FileInfo> InfoOfOctomap(const std::string& path) {
                            Fixed(map.grid().resolution_m(), 3), " m\n", "voxels      ",
                            Grouped(map.occupied_count()), " occupied, ", Grouped(free), " free\n");
   if (!box.Empty()) {
-    absl::StrAppend(&info.text, "extent      ", Size(box), ", from ", Point(box.min), " to ",
+    absl::StrAppend(&info.text, "extent      ", Size(box.Size()), ", from ", Point(box.min), " to ",
                     Point(box.max), "\n");
   }
   if (file->clamped_voxels > 0) {

@@ -51,7 +51,7 @@ absl::StatusOr<FileInfo> InfoOfSimulation(const std::string& spec, const SourceF
   for (const ObjectId id : simulation->world().ObjectIds()) {
     const Body& body = *simulation->world().FindObject(id);
     const double path_m = PathOf(*simulation, id);
-    table.AddRow({absl::StrCat(id), body.name, Size(body.BoxB()), Fixed(path_m, 1)});
+    table.AddRow({absl::StrCat(id), body.name, Size(body.BoxB().Size()), Fixed(path_m, 1)});
     info.json["objects"].push_back({{"id", id},
                                     {"name", body.name},
                                     {"size_m", ToJson(body.BoxB().Size())},

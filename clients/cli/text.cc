@@ -48,9 +48,8 @@ std::string Point(const Eigen::Vector3d& p, int decimals) {
   return absl::StrFormat("(%.*f, %.*f, %.*f)", decimals, p.x(), decimals, p.y(), decimals, p.z());
 }
 
-std::string Size(const Aabb& box) {
-  if (box.Empty()) return "-";
-  const Eigen::Vector3d size = box.Size();
+std::string Size(const Eigen::Vector3d& size) {
+  if (size.isZero()) return "-";
   return absl::StrFormat("%.2f x %.2f x %.2f m", size.x(), size.y(), size.z());
 }
 

@@ -1,11 +1,11 @@
 // Numbers and values for people.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 
 #include "clearway/base/time.h"
-#include "clearway/geometry/aabb.h"
 
 namespace clearway::cli {
 
@@ -23,8 +23,8 @@ std::string Seconds(Duration duration);
 std::string Clock(double seconds);
 // "(1.00, 2.00, 3.00)", metres.
 std::string Point(const Eigen::Vector3d& p, int decimals = 2);
-// "4.31 x 1.80 x 1.62 m"; "-" for an empty box.
-std::string Size(const Aabb& box);
+// "4.31 x 1.80 x 1.62 m"; "-" if there is nothing.
+std::string Size(const Eigen::Vector3d& size);
 // "1 frame", "2 frames".
 std::string Plural(std::uint64_t count, const std::string& noun);
 

@@ -26,10 +26,13 @@ struct Place {
   std::shared_ptr<const StateChecker> checker;
 };
 
+// A place where the static map leaves the straight way free poses the better problem.
+enum class Room { kStraight, kAround };
+
 // FAILED_PRECONDITION or NOT_FOUND: the place is void.
 absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
-                              const SceneSnapshot& scene, const Candidate& candidate,
-                              const Truth& truth, const PlanSettings& settings) {
+                              const SceneSnapshot& scene, const Candidate& candidate, Room room,
+                              const Truth& truth, PlanSettings settings) {
   const auto crossing = candidate();
   if (!crossing.ok()) return crossing.status();
   constexpr double kGroundRadiusM = 4;
@@ -48,14 +51,33 @@ absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
                                     {.min_version = scene.version});
   if (!checker.ok()) return checker.status();
   place.checker = *std::move(checker);
-  const absl::Status room =
-      CheckStaticRoom(place.checker, *crossing, *ground, IdsOf(scene), settings);
-  if (!room.ok()) return room;
+  settings.ignored_objects = IdsOf(scene);
+  const absl::Status status = room == Room::kStraight
+                                  ? CheckStraightRoom(*place.checker, *crossing, *ground, settings)
+                                  : CheckRoomAround(place.checker, *crossing, *ground, settings);
+  if (!status.ok()) return status;
   return place;
 }
 
 bool IsVoid(const absl::Status& status) {
   return absl::IsFailedPrecondition(status) || absl::IsNotFound(status);
+}
+
+// The nearest place with a free straight way, else the nearest with a way around. NOT_FOUND if
+// there is neither; `void_places` gets the reasons.
+absl::StatusOr<Place> ChoosePlace(const std::shared_ptr<Connection>& connection,
+                                  const SceneSnapshot& scene, const Problem& problem,
+                                  const Truth& truth, const PlanSettings& settings,
+                                  std::vector<std::string>& void_places) {
+  for (const Room room : {Room::kStraight, Room::kAround}) {
+    void_places.clear();
+    for (const Candidate& candidate : problem.candidates) {
+      auto place = Examine(connection, scene, candidate, room, truth, settings);
+      if (place.ok() || !IsVoid(place.status())) return place;
+      void_places.emplace_back(place.status().message());
+    }
+  }
+  return absl::NotFoundError("void: no place along the object's path poses the problem");
 }
 
 std::string NameOf(const Sequence& sequence, ObjectId id) {
@@ -97,30 +119,26 @@ absl::StatusOr<CaseResult> RunCase(std::shared_ptr<Connection> connection,
                                    const Truth& truth, const PlanSettings& settings) {
   CaseResult result;
   result.name = problem.name;
-  for (const Candidate& candidate : problem.candidates) {
-    auto place = Examine(connection, scene, candidate, truth, settings);
-    if (!place.ok()) {
-      if (!IsVoid(place.status())) return place.status();
-      result.void_places.push_back(std::string(place.status().message()));
-      continue;
-    }
-    result.crossing = place->crossing;
-    result.straight = place->straight;
-    result.straight_way = place->straight_way;
-    const auto started = std::chrono::steady_clock::now();
-    auto plan = PlanCrossing(place->checker, place->crossing, place->ground, settings);
-    result.planning_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    if (!plan.ok()) {
-      if (!absl::IsNotFound(plan.status())) return plan.status();
-      result.problem = std::string(plan.status().message());
-      return result;
-    }
-    result.plan = *std::move(plan);
-    result.verdict = Judge(truth, place->crossing, result.plan->path);
+  auto place = ChoosePlace(connection, scene, problem, truth, settings, result.void_places);
+  if (absl::IsNotFound(place.status())) {
+    result.problem = std::string(place.status().message());
     return result;
   }
-  result.problem = "void: no place along the object's path poses the problem";
+  if (!place.ok()) return place.status();
+  result.crossing = place->crossing;
+  result.straight = place->straight;
+  result.straight_way = place->straight_way;
+  const auto started = std::chrono::steady_clock::now();
+  auto plan = PlanCrossing(place->checker, place->crossing, place->ground, settings);
+  result.planning_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (absl::IsNotFound(plan.status())) {
+    result.problem = std::string(plan.status().message());
+    return result;
+  }
+  if (!plan.ok()) return plan.status();
+  result.plan = *std::move(plan);
+  result.verdict = Judge(truth, place->crossing, result.plan->path);
   return result;
 }
 

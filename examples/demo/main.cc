@@ -25,8 +25,9 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--margin", options.planning.margin_m, "Metres to keep clear of everything")
       ->check(CLI::Range(0.0, 2.0));
-  app.add_option("--inflation", options.planning.inflation_mps,
-                 "Metres a second by which predictions grow")
+  app.add_option("--inflation", options.planning.inflations_mps,
+                 "Metres a second by which predictions grow; the first that leaves a way")
+      ->delimiter(',')
       ->check(CLI::Range(0.0, 2.0));
   app.add_option("--iterations", options.planning.iterations, "Of the planner, at most")
       ->check(CLI::Range(1u, 10'000'000u));

@@ -11,11 +11,10 @@
 #include <cmath>
 
 #include "absl/strings/str_format.h"
+#include "clearway/planning/earliest_arrival.h"
 #include "clearway/planning/path_check.h"
 #include "clearway/planning/space_information.h"
 #include "clearway/planning/space_time.h"
-#include "clearway/planning/space_time_problem.h"
-#include "demo/corridor_sampler.h"
 
 namespace clearway::demo {
 namespace {
@@ -34,13 +33,8 @@ std::shared_ptr<SpaceTimeStateSpace> SpaceOf(const Crossing& crossing,
     bounds.setHigh(axis, std::max(crossing.start_W[axis], crossing.goal_W[axis]) + kRoomM);
   }
   se2->setBounds(bounds);
-  auto space = std::make_shared<SpaceTimeStateSpace>(
+  return std::make_shared<SpaceTimeStateSpace>(
       se2, SpeedLimits{crossing.max_speed_mps, settings.max_turn_radps}, crossing.time_limit);
-  space->setStateSamplerAllocator([crossing](const ob::StateSpace* sampled) {
-    return std::make_shared<CorridorSampler>(static_cast<const SpaceTimeStateSpace*>(sampled),
-                                             crossing);
-  });
-  return space;
 }
 
 void SetSe2(ob::State* state, const Eigen::Vector2d& p_W, double yaw_rad) {
@@ -49,82 +43,37 @@ void SetSe2(ob::State* state, const Eigen::Vector2d& p_W, double yaw_rad) {
   se2->setYaw(yaw_rad);
 }
 
-// Leaves out states between which the robot can drive at constant speed.
-og::PathGeometric Straightened(const ob::SpaceInformationPtr& si, const og::PathGeometric& path) {
-  og::PathGeometric result(si);
-  for (std::size_t at = 0; at < path.getStateCount();) {
-    result.append(path.getState(at));
-    std::size_t next = path.getStateCount() - 1;
-    while (next > at + 1 && !si->checkMotion(path.getState(at), path.getState(next))) --next;
-    if (at + 1 == path.getStateCount()) break;
-    at = next;
-  }
-  return result;
-}
-
-double ArrivalSeconds(og::PathGeometric& path) {
-  return SpaceTimeStateSpace::SecondsOf(path.getStates().back());
-}
-
-// The first path that RRT finds that arrives by `latest`. NOT_FOUND after `iterations`.
-absl::StatusOr<og::PathGeometric> FirstPath(const ob::SpaceInformationPtr& si,
-                                            const ob::State* start, const ob::State* goal,
-                                            Duration latest, unsigned int iterations) {
-  const auto problem = MakeSpaceTimeProblem(si, start, goal, {.tolerance = 0.01, .latest = latest});
-  if (!problem.ok()) return absl::NotFoundError(problem.status().message());
-  og::RRT planner(si);
-  planner.setRange(5);  // long: most crossings are a few straight motions
-  planner.setGoalBias(0.15);
-  planner.setProblemDefinition(*problem);
-  planner.setup();
+// NOT_FOUND if no path arrives in time.
+absl::StatusOr<std::shared_ptr<og::PathGeometric>> EarlyPath(const ob::SpaceInformationPtr& si,
+                                                             const ob::State* start,
+                                                             const ob::State* goal,
+                                                             unsigned int iterations) {
+  auto planner = std::make_shared<og::RRT>(si);
+  planner->setRange(5);  // long: most crossings are a few straight motions
+  planner->setGoalBias(0.15);
   ob::IterationTerminationCondition enough(iterations);
-  const ob::PlannerStatus status = planner.solve(enough);
-  const absl::Status error = QueryOf(*si)->first_error();
-  if (!error.ok()) return error;
-  if (status != ob::PlannerStatus::EXACT_SOLUTION) {
-    return absl::NotFoundError(absl::StrFormat("no plan in %d iterations", iterations));
-  }
-  return Straightened(si, *(*problem)->getSolutionPath()->as<og::PathGeometric>());
+  return PlanEarliestArrival(planner, start, goal, {.tolerance = 0.01}, enough);
 }
 
-// Looks for earlier and earlier arrivals, until one is not found.
-absl::StatusOr<og::PathGeometric> EarlyPath(const ob::SpaceInformationPtr& si,
-                                            const ob::State* start, const ob::State* goal,
-                                            const PlanSettings& settings, Duration latest) {
-  constexpr double kEarlierS = 0.4;
-  auto best = FirstPath(si, start, goal, latest, settings.iterations);
-  while (best.ok()) {
-    auto earlier = FirstPath(si, start, goal, FromSeconds(ArrivalSeconds(*best) - kEarlierS),
-                             settings.iterations / 4);
-    if (!earlier.ok()) {
-      if (!absl::IsNotFound(earlier.status())) return earlier.status();
-      break;
-    }
-    best = std::move(earlier);
-  }
-  return best;
-}
-
-}  // namespace
-
-CheckOptions CheckOptionsOf(const PlanSettings& settings) {
+CheckOptions CheckOptionsOf(const PlanSettings& settings, double inflation_mps) {
   CheckOptions options;
   options.unknown = UnknownPolicy::kTolerated;
   options.max_unknown_fraction = settings.max_unknown_fraction;
-  options.inflation_mps = settings.inflation_mps;
+  options.inflation_mps = inflation_mps;
+  options.inflate_moving_only = true;
   options.ignored_objects = settings.ignored_objects;
   return options;
 }
 
-absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
-                                  const Crossing& crossing, const GroundPlane& ground,
-                                  const PlanSettings& settings) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+absl::StatusOr<Plan> PlanWith(double inflation_mps,
+                              const std::shared_ptr<const StateChecker>& checker,
+                              const Crossing& crossing, const GroundPlane& ground,
+                              const PlanSettings& settings) {
   const auto space = SpaceOf(crossing, settings);
   const Ground under{[ground](double x_m, double y_m) { return ground.HeightM(x_m, y_m); },
                      settings.ground_clearance_m};
   PlanningOptions options;
-  options.check = CheckOptionsOf(settings);
+  options.check = CheckOptionsOf(settings, inflation_mps);
   const auto si = MakeSpaceInformation(
       space, checker, StateMapping::Se2(checker->robot(), under, TimeSince{crossing.now}), options);
   if (!si.ok()) return si.status();
@@ -134,33 +83,69 @@ absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
   SpaceTimeStateSpace::SetSeconds(start.get(), 0);
   ob::ScopedState<> goal(space->space());
   SetSe2(goal.get(), crossing.goal_W, crossing.Yaw());
-  const auto path = EarlyPath(*si, start.get(), goal.get(), settings, crossing.time_limit);
+  const auto path = EarlyPath(*si, start.get(), goal.get(), settings.iterations);
+  const StateQuery& query = *QueryOf(**si);
+  if (!query.first_error().ok()) return query.first_error();
   if (!path.ok()) return path.status();
-  const PathCheck check = CheckPath(*path, *QueryOf(**si));
+  const PathCheck check = CheckPath(**path, query);
   if (!check.free) return absl::InternalError("the path found does not pass its own check");
-  auto poses = TimedPoses(*path, QueryOf(**si)->mapping());
+  auto poses = TimedPoses(**path, query.mapping());
   if (!poses.ok()) return poses.status();
-  return Plan{"RRT", *std::move(poses), check.unknown_fraction, checker->version(),
+  return Plan{"RRT",
+              inflation_mps,
+              *std::move(poses),
+              check.unknown_fraction,
+              checker->version(),
               check.answers.size()};
 }
 
-absl::Status CheckStaticRoom(std::shared_ptr<const StateChecker> checker, const Crossing& crossing,
-                             const GroundPlane& ground, const std::vector<ObjectId>& objects,
-                             PlanSettings settings) {
-  settings.ignored_objects = objects;
-  settings.iterations = std::max(settings.iterations / 4, 1u);  // without traffic it is easy
+// Whether the robot may stand at the ends of `steps` equal parts of the straight way.
+absl::Status CheckPlaces(int steps, const StateChecker& checker, const Crossing& crossing,
+                         const GroundPlane& ground, const PlanSettings& settings) {
   const std::vector<TimedPose> way = StraightWay(crossing, ground, settings.ground_clearance_m);
-  const auto ends =
-      checker->Check({{way.front().time, way.back().time}, {way.front().T_W_L, way.back().T_W_L}},
-                     CheckOptionsOf(settings));
-  if (!ends.ok()) return ends.status();
-  for (const int i : {0, 1}) {
-    if (ends->answers[i].status == SpaceStatus::kFree) continue;
-    return absl::FailedPreconditionError(absl::StrFormat("the static map reads %s at the %s",
-                                                         ToString(ends->answers[i].status),
-                                                         i == 0 ? "start" : "goal"));
+  StateBatch states;
+  for (int i = 0; i <= steps; ++i) {
+    states.times.push_back(crossing.now);
+    states.T_W_L.push_back(
+        Interpolate(way.front().T_W_L, way.back().T_W_L, static_cast<double>(i) / steps));
   }
-  const auto plan = PlanCrossing(std::move(checker), crossing, ground, settings);
+  const auto reply = checker.Check(states, CheckOptionsOf(settings, 0));
+  if (!reply.ok()) return reply.status();
+  for (int i = 0; i <= steps; ++i) {
+    if (reply->answers[i].status == SpaceStatus::kFree) continue;
+    return absl::FailedPreconditionError(
+        absl::StrFormat("the static map reads %s %d %% of the way ahead",
+                        ToString(reply->answers[i].status), 100 * i / steps));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
+                                  const Crossing& crossing, const GroundPlane& ground,
+                                  const PlanSettings& settings) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+  absl::StatusOr<Plan> plan = absl::NotFoundError("no inflation to plan with");
+  for (const double inflation_mps : settings.inflations_mps) {
+    plan = PlanWith(inflation_mps, checker, crossing, ground, settings);
+    if (!absl::IsNotFound(plan.status())) break;
+  }
+  return plan;
+}
+
+absl::Status CheckStraightRoom(const StateChecker& checker, const Crossing& crossing,
+                               const GroundPlane& ground, const PlanSettings& settings) {
+  constexpr int kSteps = 160;  // of 5 cm
+  return CheckPlaces(kSteps, checker, crossing, ground, settings);
+}
+
+absl::Status CheckRoomAround(const std::shared_ptr<const StateChecker>& checker,
+                             const Crossing& crossing, const GroundPlane& ground,
+                             const PlanSettings& settings) {
+  const absl::Status ends = CheckPlaces(1, *checker, crossing, ground, settings);
+  if (!ends.ok()) return ends;
+  const auto plan = PlanWith(0, checker, crossing, ground, settings);
   if (!absl::IsNotFound(plan.status())) return plan.status();
   return absl::FailedPreconditionError("the static map leaves no way through");
 }

@@ -15,38 +15,41 @@ namespace clearway::demo {
 
 // How careful the plan is, and how hard it is looked for. A plain value.
 struct PlanSettings {
-  // Predictions are not the truth: to keep clear of everything, and per second more of what moves.
-  double margin_m = 0.15;
-  double inflation_mps = 0.2;
+  double margin_m = 0.15;  // to keep clear of everything
+  // Predictions are not the truth: the distance to keep clear of what moves grows with them. The
+  // first is about twice what constant motion misses traffic by after a second; where it leaves no
+  // way, the next is tried.
+  std::vector<double> inflations_mps{1.0, 0.6, 0.4, 0.2};
   // Between sparse beams there are holes that no ray has crossed.
   double max_unknown_fraction = 0.5;
   double ground_clearance_m = 0.2;  // of the robot over the fitted ground: two voxels
   double max_turn_radps = 1.5;
-  unsigned int iterations = 12000;  // of the planner, for a first path
+  unsigned int iterations = 4000;  // of the planner, with each inflation
   std::vector<ObjectId> ignored_objects;
 };
-
-CheckOptions CheckOptionsOf(const PlanSettings& settings);
 
 // A plan and what it is based on.
 struct Plan {
   std::string planner;
+  double inflation_mps = 0;        // that it was made with
   std::vector<TimedPose> path;     // of the robot's box, at its centre
   double unknown_fraction = 0;     // mean share of the robot's volume in unknown space
   std::uint64_t version = 0;       // of the scene
   std::size_t states_checked = 0;  // along the final path
 };
 
-// A path from start to goal before the time limit that `checker`'s scene version leaves free.
-// NOT_FOUND if none was found; the checker's error if it failed.
+// A path from start to goal before the time limit that `checker`'s scene version leaves free, with
+// the first inflation that has one. NOT_FOUND if none has; the checker's error if it failed.
 absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
                                   const Crossing& crossing, const GroundPlane& ground,
                                   const PlanSettings& settings);
 
-// Whether the static map alone leaves room: start and goal are free, and there is a plan past
-// everything but `objects`. FAILED_PRECONDITION says where there is none.
-absl::Status CheckStaticRoom(std::shared_ptr<const StateChecker> checker, const Crossing& crossing,
-                             const GroundPlane& ground, const std::vector<ObjectId>& objects,
-                             PlanSettings settings);
+// Whether what is there besides `settings.ignored_objects` leaves the straight way free, or at
+// least start and goal and a way around. FAILED_PRECONDITION says what is in the way.
+absl::Status CheckStraightRoom(const StateChecker& checker, const Crossing& crossing,
+                               const GroundPlane& ground, const PlanSettings& settings);
+absl::Status CheckRoomAround(const std::shared_ptr<const StateChecker>& checker,
+                             const Crossing& crossing, const GroundPlane& ground,
+                             const PlanSettings& settings);
 
 }  // namespace clearway::demo

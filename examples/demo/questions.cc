@@ -5,7 +5,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "clearway/report/object_extent.h"
 #include "clearway/report/table.h"
 
 namespace clearway::demo {
@@ -68,8 +67,7 @@ absl::StatusOr<Answer> AskObjects(const SceneClient& client, const SceneSnapshot
   Answer answer;
   answer.json = nlohmann::ordered_json::array();
   for (const ObjectInfo& info : list->objects) {
-    const MovingObject* object = scene.FindObject(info.id);
-    const Eigen::Vector3d size = object ? ExtentOf(*object).size_m : info.box_O.Size();
+    const Eigen::Vector3d& size = info.extent.size_m;
     const std::string name = NameOf(names, info.id);
     table.AddRow({name, absl::StrCat(info.frames_seen), absl::StrCat(info.occupied_voxels),
                   absl::StrFormat("%.1f x %.1f x %.1f", size.x(), size.y(), size.z()),

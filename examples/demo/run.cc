@@ -21,14 +21,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kHorizonS = 8;    // predictions are asked for as long as a crossing takes
-constexpr double kMaxRangeM = 50;  // beyond, the beams of a LiDAR lie too far apart
+constexpr double kHorizonS = 12;        // predictions are asked for as long as a crossing takes
+constexpr double kRestDistanceM = 0.6;  // in a second; recorded boxes of parked vehicles jitter
+constexpr double kMaxRangeM = 50;       // beyond, the beams of a LiDAR lie too far apart
 
 std::vector<std::string> ServerFlags(const Sequence& sequence) {
   const double resolution_m = sequence.frames.resolution_m;
-  return {"--log-level=warning", absl::StrCat("--scene-resolution-m=", resolution_m),
+  return {"--log-level=warning",
+          absl::StrCat("--scene-resolution-m=", resolution_m),
           absl::StrCat("--scene-object-resolution-m=", resolution_m),
           absl::StrCat("--scene-horizon-s=", kHorizonS),
+          absl::StrCat("--scene-rest-distance-m=", kRestDistanceM),
           absl::StrCat("--scene-max-range-m=", kMaxRangeM)};
 }
 
@@ -152,9 +155,9 @@ class Demo {
     }
     if (result.plan) {
       out_ << absl::StrFormat(
-          "  plan (%s, version %d, %.1f s): %d states checked, %.1f %% unknown space, closest %.2f "
-          "m\n",
-          result.plan->planner, result.plan->version, result.planning_s,
+          "  plan (%s, %.1f s): version %d, inflation %g m/s, %d states checked, %.1f %% unknown "
+          "space, closest %.2f m\n",
+          result.plan->planner, result.planning_s, result.plan->version, result.plan->inflation_mps,
           result.plan->states_checked, 100 * result.plan->unknown_fraction,
           result.verdict.closest_m);
     }

@@ -15,6 +15,11 @@ Aabb PlacedBox(const PlacedObject& placed) {
   return Transformed(placed.T_W_O, placed.object->solid->box_O).Padded(placed.margin_m);
 }
 
+double InflationOf(const MovingObject& object, Time t, const CheckOptions& options) {
+  if (options.inflate_moving_only && object.velocity_O && object.AtRest()) return 0;
+  return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k()));
+}
+
 }  // namespace
 
 ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
@@ -47,7 +52,7 @@ std::vector<PlacedObject> PlaceObjects(const SceneSnapshot& scene, const ObjectH
     added.T_W_O = predicted.T_W_O;
     added.T_O_W = Inverse(predicted.T_W_O);
     added.ball_radius_m = predicted.beyond_horizon_radius_m;
-    added.margin_m = options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k()));
+    added.margin_m = InflationOf(object, t, options);
     added.box_W = PlacedBox(added);
   }
   return placed;

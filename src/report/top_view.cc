@@ -17,7 +17,6 @@ using report::Align;
 using report::Canvas;
 using report::Color;
 using report::MapView;
-using report::Polygon;
 namespace palette = report::palette;
 
 constexpr double kMarginPx = 32;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "clearway/report/object_extent.h"
+#include "clearway/scene/object_extent.h"
 #include "report/canvas.h"
 
 namespace clearway::report {

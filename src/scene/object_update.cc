@@ -21,6 +21,19 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   object.history.erase(object.history.begin(), keep);
 }
 
+// Whether nothing of the object went further than `distance_m` in the rest window before its newest
+// pose, as far as its poses tell.
+bool StayedWithin(const MovingObject& object, double distance_m) {
+  const StampedPose& last = object.history.back();
+  for (auto entry = object.history.rbegin(); entry != object.history.rend(); ++entry) {
+    const double turned_rad = entry->T_W_O.rotation.angularDistance(last.T_W_O.rotation);
+    const double moved_m = (entry->T_W_O.translation - last.T_W_O.translation).norm();
+    if (moved_m + turned_rad * object.solid->radius_m >= distance_m) return false;
+    if (last.stamp - entry->stamp >= kRestWindow) return true;
+  }
+  return false;  // not known for so long
+}
+
 // The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
 // the pose of the first.
 const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
@@ -125,6 +138,8 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;
   }
+  const bool moved = clue.motion != nullptr || clue.pose != nullptr;
+  if (moved && StayedWithin(object, params.rest_distance_m)) object.velocity_O = Twist{};
   return object;
 }
 

@@ -19,6 +19,12 @@ absl::Status CheckDuration(const char* field, Duration value) {
       absl::StrCat(field, " is ", ToSeconds(value), " s; it must lie between 0 and 86400 s"));
 }
 
+absl::Status CheckRestDistance(double value_m) {
+  if (value_m >= 0 && value_m <= 10) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("rest_distance_m is ", value_m, "; it must lie between 0 and 10 m"));
+}
+
 absl::Status CheckBox(const std::string& field, const Aabb& box) {
   if (box.min.allFinite() && box.max.allFinite() && !box.Empty()) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -45,8 +51,8 @@ absl::Status Validate(const SceneParams& params) {
         CheckResolution("object_resolution_m", params.object_resolution_m),
         Validate(params.occupancy), CheckDuration("horizon_s", params.horizon),
         CheckDuration("object_lifetime_s", params.object_lifetime),
-        CheckDuration("history_s", params.history), CheckBox("bounds", params.bounds_W),
-        CheckBoxes("keep_out", params.keep_out_W),
+        CheckDuration("history_s", params.history), CheckRestDistance(params.rest_distance_m),
+        CheckBox("bounds", params.bounds_W), CheckBoxes("keep_out", params.keep_out_W),
         CheckBoxes("self_filter", params.self_filter_S)}) {
     if (!status.ok()) return status;
   }

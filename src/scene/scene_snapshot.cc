@@ -79,6 +79,7 @@ void ContentHasher::Add(const SceneParams& params) {
   for (Duration duration : {params.horizon, params.object_lifetime, params.history}) {
     Add(std::int64_t{duration.count()});
   }
+  Add(params.rest_distance_m);
   Add(params.bounds_W);
   Add(params.keep_out_W);
   Add(params.self_filter_S);

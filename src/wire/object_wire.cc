@@ -6,6 +6,21 @@
 #include "wire/scene_wire.h"
 
 namespace clearway {
+namespace {
+
+void WriteExtent(const ObjectExtent& extent, v1::UprightBox* proto) {
+  Write(extent.size_m, proto->mutable_size_m());
+  Write(extent.center_O, proto->mutable_center_m());
+  proto->set_yaw_rad(extent.yaw_rad);
+}
+
+ObjectExtent ReadExtent(FieldReader& read, const v1::UprightBox& proto) {
+  return {read.Finite("extent_object.yaw_rad", proto.yaw_rad()),
+          read.Vector("extent_object.size_m", proto.has_size_m(), proto.size_m()),
+          read.Vector("extent_object.center_m", proto.has_center_m(), proto.center_m())};
+}
+
+}  // namespace
 
 void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_object_id(object.id);
@@ -22,6 +37,7 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_frames_seen(object.frames_seen);
   proto->set_at_rest(object.at_rest);
   proto->set_bridged(object.bridged);
+  if (!object.box_O.Empty()) WriteExtent(object.extent, proto->mutable_extent_object());
 }
 
 absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
@@ -44,6 +60,7 @@ absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
   object.frames_seen = proto.frames_seen();
   object.at_rest = proto.at_rest();
   object.bridged = proto.bridged();
+  if (proto.has_extent_object()) object.extent = ReadExtent(read, proto.extent_object());
   if (!read.ok()) return read.status();
   return object;
 }

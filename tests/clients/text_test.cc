@@ -73,7 +73,10 @@ TEST(Text, ClocksRoundUp) {
   EXPECT_EQ(Clock(3723), "1:02:03");
 }
 
-TEST(Text, AnEmptyBoxHasNoSize) { EXPECT_EQ(Size(Aabb{}), "-"); }
+TEST(Text, NothingHasNoSize) {
+  EXPECT_EQ(Size(Eigen::Vector3d::Zero()), "-");
+  EXPECT_EQ(Size({4.31, 1.8, 1.625}), "4.31 x 1.80 x 1.62 m");
+}
 
 }  // namespace
 }  // namespace clearway::cli

@@ -150,7 +150,10 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
   Obstacle obstacle;
   obstacle.id = object.id;
   obstacle.pose_W = AsIsometry(predicted.T_W_O);
-  obstacle.margin_m = options.inflation_mps * std::max(0.0, ToSeconds(time - object.t_k()));
+  const bool rests = object.velocity_O.has_value() && *object.velocity_O == Twist{};
+  if (!(options.inflate_moving_only && rests)) {
+    obstacle.margin_m = options.inflation_mps * std::max(0.0, ToSeconds(time - object.t_k()));
+  }
   if (predicted.beyond_horizon_radius_m) {
     obstacle.status = SpaceStatus::kBeyondHorizon;
     obstacle.radius_m = *predicted.beyond_horizon_radius_m;

@@ -21,11 +21,12 @@ REGISTER_TYPED_TEST_SUITE_P(
     KeepOutBoxesOccupy, ObjectsAreWhereTheyWillBe, ObjectsAreWhereTheyWere,
     BeyondTheHorizonAllThatIsInReachBlocks, OccupiedComesBeforeBeyondHorizonBeforeUnknown,
     TheInsideOfAnObjectIsItsHullOrItsVoxelsAlone, PaddingGrowsTheRobot,
-    InflationGrowsWithTheTimeSinceAnObjectWasPlaced, IgnoredObjectsAreNotThere,
-    AllowedContactsHoldForTheirLinkAlone, TheLowestLinkThenObjectIsReported,
-    ClearanceIsTheDistanceToWhatBlocks, ClearanceEndsWhereItWasAskedTo,
-    EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid, PosesOfShapesInTheirLinkCount,
-    AnswersComeInTheOrderOfTheStates, AnswersAreThoseOfTheLocalChecker,
-    ManyThreadsGetTheSameAnswers, RefusesBatchesThatDoNotFit, RefusesOptionsOutOfRange);
+    InflationGrowsWithTheTimeSinceAnObjectWasPlaced, InflationMaySpareWhatIsKnownToRest,
+    IgnoredObjectsAreNotThere, AllowedContactsHoldForTheirLinkAlone,
+    TheLowestLinkThenObjectIsReported, ClearanceIsTheDistanceToWhatBlocks,
+    ClearanceEndsWhereItWasAskedTo, EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid,
+    PosesOfShapesInTheirLinkCount, AnswersComeInTheOrderOfTheStates,
+    AnswersAreThoseOfTheLocalChecker, ManyThreadsGetTheSameAnswers, RefusesBatchesThatDoNotFit,
+    RefusesOptionsOutOfRange);
 
 }  // namespace clearway

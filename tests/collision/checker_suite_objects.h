@@ -82,6 +82,20 @@ TYPED_TEST_P(CheckerSuite, InflationGrowsWithTheTimeSinceAnObjectWasPlaced) {
   ExpectAnswer(this->Ask(*dut, At(-0.34, 0, 0, -5), options), SpaceStatus::kOccupied, 0, 1);
 }
 
+TYPED_TEST_P(CheckerSuite, InflationMaySpareWhatIsKnownToRest) {
+  const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
+  const std::vector<StampedPose> here{{kTestStart, Pose{}}};
+  const auto known = this->Make(this->Room().Object(1, cube, here, Twist{}), this->Ball());
+  const auto unknown = this->Make(this->Room().Object(1, cube, here, std::nullopt), this->Ball());
+  const StateBatch beside = At(-0.54, 0, 0, 1);
+  CheckOptions options;
+  options.inflation_mps = 0.2;
+  ExpectAnswer(this->Ask(*known, beside, options), SpaceStatus::kOccupied, 0, 1);
+  options.inflate_moving_only = true;
+  ExpectAnswer(this->Ask(*known, beside, options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*unknown, beside, options), SpaceStatus::kOccupied, 0, 1);
+}
+
 TYPED_TEST_P(CheckerSuite, IgnoredObjectsAreNotThere) {
   const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
   const auto dut =

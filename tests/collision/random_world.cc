@@ -75,7 +75,8 @@ ScenePtr RandomWorld::Scene() {
   }
   for (ObjectId id : {2, 3, 7, 40}) {
     const Pose first = AnyPose(kRegion);
-    const Twist velocity{Point({{-1, -1, -1}, {1, 1, 1}}), Point({{-1, -1, -1}, {1, 1, 1}})};
+    Twist velocity{Point({{-1, -1, -1}, {1, 1, 1}}), Point({{-1, -1, -1}, {1, 1, 1}})};
+    if (id == 3 && Below(2)) velocity = Twist{};
     const double stamp_s = Uniform(-0.5, 0);
     world.Object(id, Blob(),
                  {{TestTime(stamp_s - 1), first}, {TestTime(stamp_s), first * Exp(velocity)}},
@@ -142,6 +143,7 @@ CheckOptions RandomWorld::Options(const Robot& robot) {
   }
   if (Below(2)) options.padding_m = Uniform(0, 0.2);
   if (Below(2)) options.inflation_mps = Uniform(0, 0.1);
+  options.inflate_moving_only = Below(2);
   if (Below(3) == 0) options.ignored_objects = {3, 17};
   if (Below(3) == 0) {
     const int link = Below(static_cast<int>(robot.links.size()));

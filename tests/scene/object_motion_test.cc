@@ -1,6 +1,8 @@
 // Where an object's frame goes, and what its map gathers (II-D).
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
 
@@ -114,6 +116,52 @@ TEST_F(ObjectMotionTest, AMotionAtFirstSightGivesTheVelocity) {
   Frame frame = Seen(0.1, Pose::Translation(4, 0, 0));
   frame.motions.push_back({5, Pose::Translation(0.3, 0, 0), At(0)});
   EXPECT_NEAR(ObjectAfter(dut, frame).SpeedMps(), 3.0, 1e-9);
+}
+
+// What the object's motions are after 1.5 s at 10 Hz of `T_W_B` by the number of the frame.
+class ObjectRestTest : public ObjectMotionTest {
+ protected:
+  const MovingObject& ObjectAlong(const std::function<Pose(int)>& T_W_B, double rest_distance_m) {
+    SceneParams params;
+    params.rest_distance_m = rest_distance_m;
+    SceneBuilder dut = Builder(params);
+    ObjectAfter(dut, Seen(0, T_W_B(0)));
+    for (int k = 1; k < 15; ++k) {
+      Frame frame = Seen(0.1 * k, T_W_B(k));
+      frame.motions.push_back({5, T_W_B(k) * Inverse(T_W_B(k - 1)), At(0.1 * (k - 1))});
+      const MovingObject& object = ObjectAfter(dut, frame);
+      if (k < 10) {
+        EXPECT_FALSE(object.AtRest()) << "too early to tell";
+      }
+    }
+    return *scene_->FindObject(5);
+  }
+  static Pose Jitter(int k) { return Pose::Translation(4 + (k % 2 ? 0.05 : -0.05), 0, 0); }
+};
+
+TEST_F(ObjectRestTest, NoiseIsNoMotionButMovesTheFrame) {
+  const MovingObject& object = ObjectAlong(Jitter, 0.2);
+  EXPECT_TRUE(object.AtRest());
+  EXPECT_EQ(object.velocity_O, Twist{});
+  EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 3.95, 1e-5);
+}
+
+TEST_F(ObjectRestTest, WithoutADistanceNoiseIsExtrapolated) {
+  EXPECT_NEAR(ObjectAlong(Jitter, 0).SpeedMps(), 1, 1e-9);
+}
+
+TEST_F(ObjectRestTest, NoiseBeyondTheDistanceIsMotion) {
+  EXPECT_FALSE(ObjectAlong(Jitter, 0.09).AtRest());
+}
+
+TEST_F(ObjectRestTest, GoingAndTurningAreNoRest) {
+  const auto walk = [](int k) { return Pose::Translation(4 + 0.1 * k, 0, 0); };
+  EXPECT_NEAR(ObjectAlong(walk, 0.5).SpeedMps(), 1, 1e-9);
+  const auto turn = [](int k) {
+    return Pose{Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * k, Eigen::Vector3d::UnitZ())),
+                {4, 0, 0}};
+  };
+  EXPECT_FALSE(ObjectAlong(turn, 0.3).AtRest());
 }
 
 TEST_F(ObjectMotionTest, AMotionMayStartBeforeTheLastPose) {

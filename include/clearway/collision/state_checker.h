@@ -43,6 +43,8 @@ struct CheckOptions {
   double padding_m = 0;
   // Added round each moving object, solid or swept ball, per second after its t_k.
   double inflation_mps = 0;
+  // Leave objects that are known to be at rest as they are; without a known motion they grow too.
+  bool inflate_moving_only = false;
 
   std::vector<ObjectId> ignored_objects;  // those the scene does not have are fine
   // (link, object) that may touch. Object 0 is the static map with its keep-out boxes, but not

@@ -14,6 +14,10 @@ namespace clearway {
 // What of an object counts as occupied.
 enum class SolidMode { kConvexHull = 0, kVoxels = 1 };
 
+// How long an object has to stay where it is before it counts as at rest. Longer than the history,
+// it never does.
+inline constexpr Duration kRestWindow = std::chrono::seconds(1);
+
 // Parameters of a scene; they travel with it to mirrors and checkpoints. A plain value.
 struct SceneParams {
   double resolution_m = 0.1;         // of the static map
@@ -28,6 +32,9 @@ struct SceneParams {
   Duration horizon = std::chrono::seconds(5);           // how long a motion is extrapolated
   Duration object_lifetime = std::chrono::seconds(10);  // unseen for longer: dropped
   Duration history = std::chrono::seconds(10);          // how far back poses are kept
+  // An object that stayed within this distance for kRestWindow is at rest, whatever its last motion
+  // says: that is the noise of SLAM. 0: at rest is only what did not move at all (II-E as printed).
+  double rest_distance_m = 0;
 
   Aabb bounds_W{Eigen::Vector3d::Constant(-1e5), Eigen::Vector3d::Constant(1e5)};
   std::vector<Aabb> keep_out_W;     // these read as occupied by the static map

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "clearway/scene/object_extent.h"
 #include "clearway/scene/occupancy.h"
 #include "clearway/wire/server_info.h"
 
@@ -25,6 +26,7 @@ struct ObjectInfo {
   std::optional<Twist> velocity_O;
   double speed_mps = 0;
   Aabb box_O;  // around the occupied voxels
+  ObjectExtent extent;
   Aabb box_W;  // around that, where the object is at t_k
   std::int64_t observed_voxels = 0, occupied_voxels = 0;
   Time first_seen, last_seen;

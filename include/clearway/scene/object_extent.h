@@ -14,10 +14,10 @@ struct ObjectExtent {
   Eigen::Vector3d center_O = Eigen::Vector3d::Zero();
 };
 
-// The smallest upright box around the object's hull; its length lies along the motion if the object
-// moves (so that it may be the shorter side), else along the longer side. All zero for an object
-// without an occupied voxel. The smallest rectangle shares a side with the hull: Freeman and
-// Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve", 1975.
+// The smallest upright box around the object's hull. Its length, the longer side, points forwards
+// if the object moves. All zero for an object without an occupied voxel. The smallest rectangle
+// shares a side with the hull: Freeman and Shapira, "Determining the Minimum-Area Encasing
+// Rectangle for an Arbitrary Closed Curve", 1975.
 ObjectExtent ExtentOf(const MovingObject& object);
 
 }  // namespace clearway

@@ -1,11 +1,9 @@
-#include "clearway/report/object_extent.h"
+#include "clearway/scene/object_extent.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "report/polygon.h"
-#include "report/test_scene.h"
+#include <numbers>
 
 namespace clearway {
 namespace {
@@ -45,35 +43,22 @@ TEST(ObjectExtent, IsTheBoxWhateverItsDirection) {
   }
 }
 
-TEST(ObjectExtent, LengthLiesAlongTheMotion) {
+TEST(ObjectExtent, LengthPointsForwards) {
   MovingObject object = TurnedBox(0.3);
-  const double sideways = 0.3 + 1.5;
-  object.velocity_O = Twist{{}, {3 * std::cos(sideways), 3 * std::sin(sideways), 0}};
-  object.velocity_O->angular.setZero();
-  const ObjectExtent dut = ExtentOf(object);
-  EXPECT_NEAR(dut.size_m.x(), 1.8, 0.3);
-  EXPECT_NEAR(dut.size_m.y(), 4.0, 0.3);
-  EXPECT_GT(std::cos(dut.yaw_rad - sideways), 0.9);
+  for (const double heading_rad : {0.3, 0.3 + std::numbers::pi, 1.5, -1.0}) {
+    object.velocity_O =
+        Twist{Eigen::Vector3d::Zero(), {3 * std::cos(heading_rad), 3 * std::sin(heading_rad), 0}};
+    const ObjectExtent dut = ExtentOf(object);
+    EXPECT_NEAR(dut.size_m.x(), 4.0, 0.3) << heading_rad;
+    EXPECT_NEAR(dut.size_m.y(), 1.8, 0.3) << heading_rad;
+    EXPECT_GT(std::cos(dut.yaw_rad - heading_rad), 0) << heading_rad;
+  }
 }
 
 TEST(ObjectExtent, IgnoresTheDirectionOfNoise) {
   MovingObject object = TurnedBox(0.3);
   object.velocity_O = Twist{Eigen::Vector3d::Zero(), {0, 0.1, 0}};
   EXPECT_NEAR(ExtentOf(object).size_m.x(), 4.0, 0.3);
-}
-
-TEST(ConvexOutline, Empty) { EXPECT_TRUE(report::ConvexOutline({}).empty()); }
-
-TEST(ConvexOutline, DropsInnerPointsAndTurnsLeft) {
-  const report::Polygon dut =
-      report::ConvexOutline({{1, 1}, {0, 0}, {2, 0}, {1, 0}, {2, 2}, {0, 2}});
-  ASSERT_EQ(dut.size(), 4u);
-  double area2 = 0;
-  for (std::size_t i = 0; i < dut.size(); ++i) {
-    const Eigen::Vector2d a = dut[i], b = dut[(i + 1) % dut.size()];
-    area2 += a.x() * b.y() - a.y() * b.x();
-  }
-  EXPECT_DOUBLE_EQ(area2, 8);
 }
 
 }  // namespace
