@@ -26,12 +26,9 @@ struct Place {
   std::shared_ptr<const StateChecker> checker;
 };
 
-// A place where the static map leaves the straight way free poses the better problem.
-enum class Room { kStraight, kAround };
-
 // FAILED_PRECONDITION or NOT_FOUND: the place is void.
 absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
-                              const SceneSnapshot& scene, const Candidate& candidate, Room room,
+                              const SceneSnapshot& scene, const Candidate& candidate,
                               const Truth& truth, PlanSettings settings) {
   const auto crossing = candidate();
   if (!crossing.ok()) return crossing.status();
@@ -52,10 +49,7 @@ absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
   if (!checker.ok()) return checker.status();
   place.checker = *std::move(checker);
   settings.ignored_objects = IdsOf(scene);
-  const absl::Status status = room == Room::kStraight
-                                  ? CheckStraightRoom(*place.checker, *crossing, *ground, settings)
-                                  : CheckRoomAround(place.checker, *crossing, *ground, settings);
-  if (!status.ok()) return status;
+  if (auto room = CheckRoom(place.checker, *crossing, *ground, settings); !room.ok()) return room;
   return place;
 }
 
@@ -63,19 +57,16 @@ bool IsVoid(const absl::Status& status) {
   return absl::IsFailedPrecondition(status) || absl::IsNotFound(status);
 }
 
-// The nearest place with a free straight way, else the nearest with a way around. NOT_FOUND if
-// there is neither; `void_places` gets the reasons.
+// The nearest place that poses the problem. NOT_FOUND if there is none; `void_places` gets the
+// reasons.
 absl::StatusOr<Place> ChoosePlace(const std::shared_ptr<Connection>& connection,
                                   const SceneSnapshot& scene, const Problem& problem,
                                   const Truth& truth, const PlanSettings& settings,
                                   std::vector<std::string>& void_places) {
-  for (const Room room : {Room::kStraight, Room::kAround}) {
-    void_places.clear();
-    for (const Candidate& candidate : problem.candidates) {
-      auto place = Examine(connection, scene, candidate, room, truth, settings);
-      if (place.ok() || !IsVoid(place.status())) return place;
-      void_places.emplace_back(place.status().message());
-    }
+  for (const Candidate& candidate : problem.candidates) {
+    auto place = Examine(connection, scene, candidate, truth, settings);
+    if (place.ok() || !IsVoid(place.status())) return place;
+    void_places.emplace_back(place.status().message());
   }
   return absl::NotFoundError("void: no place along the object's path poses the problem");
 }

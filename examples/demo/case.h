@@ -35,7 +35,7 @@ struct CaseResult {
 };
 
 // Takes the first place that poses the problem: the straight way at full speed touches something
-// that moves, and the static map leaves it free (else: leaves a way around). Plans there on the
+// that moves, and the static map leaves room. Plans there on the
 // server's version `version`, and judges the plan by what really happened. An error is the
 // server's.
 absl::StatusOr<CaseResult> RunCase(std::shared_ptr<Connection> connection,

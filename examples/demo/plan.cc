@@ -69,6 +69,7 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
                               const std::shared_ptr<const StateChecker>& checker,
                               const Crossing& crossing, const GroundPlane& ground,
                               const PlanSettings& settings) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const auto space = SpaceOf(crossing, settings);
   const Ground under{[ground](double x_m, double y_m) { return ground.HeightM(x_m, y_m); },
                      settings.ground_clearance_m};
@@ -99,33 +100,11 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
               check.answers.size()};
 }
 
-// Whether the robot may stand at the ends of `steps` equal parts of the straight way.
-absl::Status CheckPlaces(int steps, const StateChecker& checker, const Crossing& crossing,
-                         const GroundPlane& ground, const PlanSettings& settings) {
-  const std::vector<TimedPose> way = StraightWay(crossing, ground, settings.ground_clearance_m);
-  StateBatch states;
-  for (int i = 0; i <= steps; ++i) {
-    states.times.push_back(crossing.now);
-    states.T_W_L.push_back(
-        Interpolate(way.front().T_W_L, way.back().T_W_L, static_cast<double>(i) / steps));
-  }
-  const auto reply = checker.Check(states, CheckOptionsOf(settings, 0));
-  if (!reply.ok()) return reply.status();
-  for (int i = 0; i <= steps; ++i) {
-    if (reply->answers[i].status == SpaceStatus::kFree) continue;
-    return absl::FailedPreconditionError(
-        absl::StrFormat("the static map reads %s %d %% of the way ahead",
-                        ToString(reply->answers[i].status), 100 * i / steps));
-  }
-  return absl::OkStatus();
-}
-
 }  // namespace
 
 absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
                                   const Crossing& crossing, const GroundPlane& ground,
                                   const PlanSettings& settings) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   absl::StatusOr<Plan> plan = absl::NotFoundError("no inflation to plan with");
   for (const double inflation_mps : settings.inflations_mps) {
     plan = PlanWith(inflation_mps, checker, crossing, ground, settings);
@@ -134,17 +113,21 @@ absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
   return plan;
 }
 
-absl::Status CheckStraightRoom(const StateChecker& checker, const Crossing& crossing,
-                               const GroundPlane& ground, const PlanSettings& settings) {
-  constexpr int kSteps = 160;  // of 5 cm
-  return CheckPlaces(kSteps, checker, crossing, ground, settings);
-}
-
-absl::Status CheckRoomAround(const std::shared_ptr<const StateChecker>& checker,
-                             const Crossing& crossing, const GroundPlane& ground,
-                             const PlanSettings& settings) {
-  const absl::Status ends = CheckPlaces(1, *checker, crossing, ground, settings);
-  if (!ends.ok()) return ends;
+absl::Status CheckRoom(const std::shared_ptr<const StateChecker>& checker, const Crossing& crossing,
+                       const GroundPlane& ground, PlanSettings settings) {
+  // What is hard to find without traffic is too tight to dodge it.
+  settings.iterations = std::max(settings.iterations / 8, 1u);
+  const std::vector<TimedPose> way = StraightWay(crossing, ground, settings.ground_clearance_m);
+  const auto ends =
+      checker->Check({{crossing.now, crossing.now}, {way.front().T_W_L, way.back().T_W_L}},
+                     CheckOptionsOf(settings, 0));
+  if (!ends.ok()) return ends.status();
+  for (const int i : {0, 1}) {
+    if (ends->answers[i].status == SpaceStatus::kFree) continue;
+    return absl::FailedPreconditionError(absl::StrFormat("the static map reads %s at the %s",
+                                                         ToString(ends->answers[i].status),
+                                                         i == 0 ? "start" : "goal"));
+  }
   const auto plan = PlanWith(0, checker, crossing, ground, settings);
   if (!absl::IsNotFound(plan.status())) return plan.status();
   return absl::FailedPreconditionError("the static map leaves no way through");

@@ -15,7 +15,7 @@ namespace clearway::demo {
 
 // How careful the plan is, and how hard it is looked for. A plain value.
 struct PlanSettings {
-  double margin_m = 0.15;  // to keep clear of everything
+  double margin_m = 0.1;  // to keep clear of everything: a voxel
   // Predictions are not the truth: the distance to keep clear of what moves grows with them. The
   // first is about twice what constant motion misses traffic by after a second; where it leaves no
   // way, the next is tried.
@@ -24,7 +24,7 @@ struct PlanSettings {
   double max_unknown_fraction = 0.5;
   double ground_clearance_m = 0.2;  // of the robot over the fitted ground: two voxels
   double max_turn_radps = 1.5;
-  unsigned int iterations = 4000;  // of the planner, with each inflation
+  unsigned int iterations = 3000;  // of the planner, with each inflation
   std::vector<ObjectId> ignored_objects;
 };
 
@@ -44,12 +44,9 @@ absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
                                   const Crossing& crossing, const GroundPlane& ground,
                                   const PlanSettings& settings);
 
-// Whether what is there besides `settings.ignored_objects` leaves the straight way free, or at
-// least start and goal and a way around. FAILED_PRECONDITION says what is in the way.
-absl::Status CheckStraightRoom(const StateChecker& checker, const Crossing& crossing,
-                               const GroundPlane& ground, const PlanSettings& settings);
-absl::Status CheckRoomAround(const std::shared_ptr<const StateChecker>& checker,
-                             const Crossing& crossing, const GroundPlane& ground,
-                             const PlanSettings& settings);
+// Whether what is there besides `settings.ignored_objects` leaves start and goal free and a way
+// between them that is easy to find. FAILED_PRECONDITION says what is in the way.
+absl::Status CheckRoom(const std::shared_ptr<const StateChecker>& checker, const Crossing& crossing,
+                       const GroundPlane& ground, PlanSettings settings);
 
 }  // namespace clearway::demo

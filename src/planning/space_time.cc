@@ -152,6 +152,11 @@ bool SpaceTimeStateSpace::OnStraightWay(double fraction, ob::State* part) const 
   return true;
 }
 
+double SpaceTimeStateSpace::StraightLength() const {
+  if (focus_start_part_ == nullptr) return 0;
+  return space()->distance(focus_start_part_.get(), focus_goal_part_.get());
+}
+
 ob::StateSamplerPtr SpaceTimeStateSpace::allocDefaultStateSampler() const {
   return std::make_shared<SpaceTimeSampler>(this);
 }

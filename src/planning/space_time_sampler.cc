@@ -10,16 +10,14 @@ namespace ob = ompl::base;
 SpaceTimeSampler::SpaceTimeSampler(const SpaceTimeStateSpace* space)
     : ob::StateSampler(space),
       space_time_(space),
-      part_sampler_(space->space()->allocStateSampler()) {}
+      part_sampler_(space->space()->allocStateSampler()),
+      mean_(space->space()) {}
 
 void SpaceTimeSampler::sampleUniform(ob::State* state) {
   constexpr int kAttempts = 32;
-  constexpr double kStraightShare = 0.5;
   for (int i = 0; i < kAttempts; ++i) {
     ob::State* part = SpaceTimeStateSpace::SpacePart(state);
-    const bool straight =
-        rng_.uniform01() < kStraightShare && space_time_->OnStraightWay(rng_.uniform01(), part);
-    if (!straight) part_sampler_->sampleUniform(part);
+    SamplePart(part);
     const auto [earliest_s, last_s] = space_time_->VisitableSeconds(part);
     if (earliest_s > last_s) continue;
     SpaceTimeStateSpace::SetSeconds(state, rng_.uniformReal(earliest_s, last_s));
@@ -27,6 +25,19 @@ void SpaceTimeSampler::sampleUniform(ob::State* state) {
   }
   // Nearly nothing can be visited in time: any state within the bounds will do.
   SpaceTimeStateSpace::SetSeconds(state, rng_.uniformReal(0, space_time_->latest_s()));
+}
+
+void SpaceTimeSampler::SamplePart(ob::State* part) {
+  constexpr double kOnStraightWay = 0.4, kNearStraightWay = 0.3;  // shares; the rest is uniform
+  constexpr double kAside = 0.1;  // standard deviation, as a share of the straight way
+  const double draw = rng_.uniform01();
+  if (draw > kOnStraightWay + kNearStraightWay ||
+      !space_time_->OnStraightWay(rng_.uniform01(), part)) {
+    part_sampler_->sampleUniform(part);
+  } else if (draw > kOnStraightWay) {
+    mean_ = part;
+    part_sampler_->sampleGaussian(part, mean_.get(), kAside * space_time_->StraightLength());
+  }
 }
 
 void SpaceTimeSampler::sampleUniformNear(ob::State* state, const ob::State* near, double distance) {

@@ -1,4 +1,6 @@
 // The program itself: how it starts, refuses to start, and ends.
+#include <gmock/gmock.h>
+#include <grpcpp/support/sync_stream.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -9,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
 #include "support/frames.h"
@@ -114,6 +117,38 @@ TEST(ServerProcess, Empty) {
   EXPECT_EQ(HealthOf(address), 1);
   dut.Signal(SIGTERM);
   EXPECT_EQ(dut.Wait(), 0);
+}
+
+// The answer of grpc.reflection.v1alpha.ServerReflection to `list_services` (field 7), as bytes.
+std::string ReflectedServices(const std::string& address) {
+  const auto channel = grpc::CreateChannel(address, grpc::InsecureChannelCredentials());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  context.set_wait_for_ready(true);
+  const grpc::internal::RpcMethod method(
+      "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
+      grpc::internal::RpcMethod::BIDI_STREAMING, channel);
+  const std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>> stream(
+      grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, grpc::ByteBuffer>::Create(
+          channel.get(), method, &context));
+  const grpc::Slice list_services("\x3a\x00", 2);
+  stream->Write(grpc::ByteBuffer(&list_services, 1));
+  grpc::ByteBuffer answer;
+  EXPECT_TRUE(stream->Read(&answer));
+  stream->WritesDone();
+  EXPECT_TRUE(stream->Finish().ok());
+  grpc::Slice bytes;
+  EXPECT_TRUE(answer.DumpToSingleSlice(&bytes).ok());
+  return {reinterpret_cast<const char*>(bytes.begin()), bytes.size()};
+}
+
+TEST(ServerProcess, NamesItsServicesByReflection) {
+  Process dut({"--listen", "127.0.0.1:0"});
+  const std::string services = ReflectedServices(dut.Address());
+  for (const char* name :
+       {"Ingest", "Occupancy", "Check", "Object", "Lease", "Map", "Follow", "Server"}) {
+    EXPECT_THAT(services, testing::HasSubstr(absl::StrCat("clearway.v1.", name, "Service")));
+  }
 }
 
 TEST(ServerProcess, DrainsWithClientsConnected) {

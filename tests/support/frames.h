@@ -72,11 +72,9 @@ class RandomFrames {
         }
       }
       if (kind == 1 || kind == 4) {
-        frame.motions.push_back({id,
-                                 {Eigen::Quaterniond(Eigen::AngleAxisd(random_.Uniform(-0.3, 0.3),
-                                                                       random_.UnitVector())),
-                                  random_.Vector(0.5)},
-                                 frame.stamp - FromSeconds(0.1)});
+        const double angle_rad = random_.Uniform(-0.3, 0.3);
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle_rad, random_.UnitVector()));
+        frame.motions.push_back({id, {turn, random_.Vector(0.5)}, frame.stamp - FromSeconds(0.1)});
       } else if (kind == 2) {
         frame.poses.push_back({id, random_.AnyPose(6)});
       }

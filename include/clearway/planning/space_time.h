@@ -65,6 +65,8 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   // Under Focus: writes the place at `fraction` of the straight way from start to goal and returns
   // true; else false.
   bool OnStraightWay(double fraction, ompl::base::State* part) const;
+  // How far that is, as space() measures it; 0 without Focus.
+  double StraightLength() const;
 
   // Unreachable: far above every extent, yet finite, so that a planner that steps a part of the way
   // to an unreachable state proposes a motion that the motion validator refuses (with infinity it

@@ -1,0 +1,28 @@
+# See CMakeLists.txt beside this.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed (${result}): ${ARGV}\n${output}")
+  endif()
+endfunction()
+
+set(expected "")
+foreach(compiler g++ clang++)
+  foreach(level O0 O2)
+    set(build ${WORK_DIR}/${compiler}-${level})
+    run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/project -B ${build} -G ${GENERATOR}
+      -D CLEARWAY_DIR=${SOURCE_DIR} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_CXX_FLAGS=-${level}
+      -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+    run(${CMAKE_COMMAND} --build ${build} --parallel 2)
+    execute_process(COMMAND ${build}/scene_hash RESULT_VARIABLE result OUTPUT_VARIABLE hashes)
+    message(STATUS "${compiler} -${level}:\n${hashes}")
+    if(NOT result EQUAL 0)
+      message(FATAL_ERROR "scene_hash of ${compiler} -${level} failed: ${result}")
+    endif()
+    if(expected STREQUAL "")
+      set(expected "${hashes}")
+    elseif(NOT hashes STREQUAL expected)
+      message(FATAL_ERROR "${compiler} -${level} makes other scenes than g++ -O0")
+    endif()
+  endforeach()
+endforeach()
