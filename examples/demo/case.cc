@@ -19,6 +19,7 @@ std::vector<ObjectId> IdsOf(const SceneSnapshot& scene) {
 
 // A place that has been looked at: a case, or the reason why it is none.
 struct Place {
+  double margin_m = 0;
   Crossing crossing;
   GroundPlane ground;
   std::vector<TimedPose> straight_way;
@@ -29,22 +30,20 @@ struct Place {
 // FAILED_PRECONDITION or NOT_FOUND: the place is void.
 absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
                               const SceneSnapshot& scene, const Candidate& candidate,
-                              const Truth& truth, PlanSettings settings) {
+                              double margin_m, const Truth& truth, PlanSettings settings) {
   const auto crossing = candidate();
   if (!crossing.ok()) return crossing.status();
   constexpr double kGroundRadiusM = 4;
   const auto ground = FitGround(scene.static_map_W, *crossing, kGroundRadiusM);
   if (!ground.ok()) return ground.status();
-  Place place{*crossing,
-              *ground,
-              StraightWay(*crossing, *ground, settings.ground_clearance_m),
-              {},
-              nullptr};
+  Place place{margin_m, *crossing,
+              *ground,  StraightWay(*crossing, *ground, settings.ground_clearance_m),
+              {},       nullptr};
   place.straight = Judge(truth, *crossing, place.straight_way);
   if (!place.straight.contact || place.straight.touched == kStaticLabel) {
     return absl::FailedPreconditionError("the straight way touches nothing that moves");
   }
-  auto checker = RemoteChecker::Pin(connection, crossing->RobotModel(settings.margin_m),
+  auto checker = RemoteChecker::Pin(connection, crossing->RobotModel(margin_m),
                                     {.min_version = scene.version});
   if (!checker.ok()) return checker.status();
   place.checker = *std::move(checker);
@@ -63,10 +62,13 @@ absl::StatusOr<Place> ChoosePlace(const std::shared_ptr<Connection>& connection,
                                   const SceneSnapshot& scene, const Problem& problem,
                                   const Truth& truth, const PlanSettings& settings,
                                   std::vector<std::string>& void_places) {
-  for (const Candidate& candidate : problem.candidates) {
-    auto place = Examine(connection, scene, candidate, truth, settings);
-    if (place.ok() || !IsVoid(place.status())) return place;
-    void_places.emplace_back(place.status().message());
+  for (const double margin_m : settings.margins_m) {
+    void_places.clear();
+    for (const Candidate& candidate : problem.candidates) {
+      auto place = Examine(connection, scene, candidate, margin_m, truth, settings);
+      if (place.ok() || !IsVoid(place.status())) return place;
+      void_places.emplace_back(place.status().message());
+    }
   }
   return absl::NotFoundError("void: no place along the object's path poses the problem");
 }
@@ -116,6 +118,7 @@ absl::StatusOr<CaseResult> RunCase(std::shared_ptr<Connection> connection,
     return result;
   }
   if (!place.ok()) return place.status();
+  result.margin_m = place->margin_m;
   result.crossing = place->crossing;
   result.straight = place->straight;
   result.straight_way = place->straight_way;

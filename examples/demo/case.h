@@ -16,6 +16,7 @@ namespace clearway::demo {
 struct CaseResult {
   std::string name;
   std::vector<std::string> void_places;  // why each place tried before was no case
+  double margin_m = 0;                   // that the robot was to keep clear of everything
   std::optional<Crossing> crossing;
   Verdict straight;
   std::vector<TimedPose> straight_way;

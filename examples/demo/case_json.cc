@@ -53,6 +53,7 @@ Json JsonOf(const CaseResult& result) {
   json["planning_s"] = result.planning_s;
   if (!result.plan) return json;
   json["plan"] = {{"planner", result.plan->planner},
+                  {"margin_m", result.margin_m},
                   {"inflation_mps", result.plan->inflation_mps},
                   {"scene_version", result.plan->version},
                   {"arrival_s", result.ArrivalSeconds()},

@@ -23,7 +23,9 @@ int main(int argc, char** argv) {
   app.add_option("--server", options.server, "The server's program")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--margin", options.planning.margin_m, "Metres to keep clear of everything")
+  app.add_option("--margin", options.planning.margins_m,
+                 "Metres to keep clear of everything; the first for which there is a place")
+      ->delimiter(',')
       ->check(CLI::Range(0.0, 2.0));
   app.add_option("--inflation", options.planning.inflations_mps,
                  "Metres a second by which predictions grow; the first that leaves a way")

@@ -15,7 +15,8 @@ namespace clearway::demo {
 
 // How careful the plan is, and how hard it is looked for. A plain value.
 struct PlanSettings {
-  double margin_m = 0.1;  // to keep clear of everything: a voxel
+  // To keep clear of everything; the first with which there is a place that poses the problem.
+  std::vector<double> margins_m{0.15, 0.1};
   // Predictions are not the truth: the distance to keep clear of what moves grows with them. The
   // first is about twice what constant motion misses traffic by after a second; where it leaves no
   // way, the next is tried.

@@ -155,11 +155,11 @@ class Demo {
     }
     if (result.plan) {
       out_ << absl::StrFormat(
-          "  plan (%s, %.1f s): version %d, inflation %g m/s, %d states checked, %.1f %% unknown "
-          "space, closest %.2f m\n",
-          result.plan->planner, result.planning_s, result.plan->version, result.plan->inflation_mps,
-          result.plan->states_checked, 100 * result.plan->unknown_fraction,
-          result.verdict.closest_m);
+          "  plan (%s, %.1f s): version %d, margin %g m, inflation %g m/s, %d states checked, "
+          "%.1f %% unknown space, closest %.2f m\n",
+          result.plan->planner, result.planning_s, result.plan->version, result.margin_m,
+          result.plan->inflation_mps, result.plan->states_checked,
+          100 * result.plan->unknown_fraction, result.verdict.closest_m);
     }
     out_ << "  " << (result.Passed() ? "PASSED: " : "FAILED: ") << result.Conclusion() << "  ["
          << picture << "]\n";
