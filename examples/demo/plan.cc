@@ -90,6 +90,8 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
   if (!path.ok()) return path.status();
   const PathCheck check = CheckPath(**path, query);
   if (!check.free) return absl::InternalError("the path found does not pass its own check");
+  // What is judged and drawn is the motion that was checked, step by step.
+  (*path)->interpolate(static_cast<unsigned int>(check.answers.size()));
   auto poses = TimedPoses(**path, query.mapping());
   if (!poses.ok()) return poses.status();
   return Plan{"RRT",

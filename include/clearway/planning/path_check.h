@@ -12,8 +12,10 @@
 
 namespace clearway {
 
-// The poses of the robot's first link at the path's states, in their order; between two of them the
-// robot moves at constant speed. The error is StateMapping::Append's.
+// The poses of the robot's first link at the path's states, in their order. Between two of them the
+// robot moves as the path's space interpolates: a screw (geometry's Interpolate) between the poses
+// is another motion if the robot turns on the way, so call path.interpolate() first where that
+// matters. The error is StateMapping::Append's.
 absl::StatusOr<std::vector<TimedPose>> TimedPoses(const ompl::geometric::PathGeometric& path,
                                                   const StateMapping& mapping);
 
