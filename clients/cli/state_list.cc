@@ -135,6 +135,10 @@ absl::StatusOr<std::vector<TimedBase>> ReadStates(const std::string& name, std::
   std::vector<std::string> header;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (in.eof()) {  // getline took the rest of it, without the end of the line
+      return absl::InvalidArgumentError(absl::StrCat(
+          name, ", line ", number, ": the last line does not end: the file seems cut off"));
+    }
     absl::StripAsciiWhitespace(&line);
     if (line.empty() || line.front() == '#') continue;
     const std::string where = absl::StrCat(name, ", line ", number);

@@ -118,7 +118,7 @@ absl::StatusOr<Plan> PlanCrossing(std::shared_ptr<const StateChecker> checker,
 absl::Status CheckRoom(const std::shared_ptr<const StateChecker>& checker, const Crossing& crossing,
                        const GroundPlane& ground, PlanSettings settings) {
   // What is hard to find without traffic is too tight to dodge it.
-  settings.iterations = std::max(settings.iterations / 8, 1u);
+  settings.iterations = std::max(settings.iterations / 4, 1u);
   const std::vector<TimedPose> way = StraightWay(crossing, ground, settings.ground_clearance_m);
   const auto ends =
       checker->Check({{crossing.now, crossing.now}, {way.front().T_W_L, way.back().T_W_L}},

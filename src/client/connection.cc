@@ -76,6 +76,10 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   impl->occupancy = v1::OccupancyService::NewStub(impl->channel);
   impl->info = v1::ServerService::NewStub(impl->channel);
 
+  // A server that has just been started takes a moment to listen.
+  constexpr Duration kStarting = std::chrono::seconds(3);
+  impl->channel->WaitForConnected(std::chrono::system_clock::now() +
+                                  std::min(options.deadline, kStarting));
   auto response = Call(options, *impl->info, &v1::ServerService::Stub::GetServerInfo,
                        v1::GetServerInfoRequest());
   if (!response.ok()) return response.status();

@@ -12,7 +12,7 @@ namespace clearway {
 
 // The folder of real recordings: the environment's CLEARWAY_DATA, else `../shared/data` beside the
 // source tree. None, with a message that says where it was looked for, if there is no such folder:
-// the data's licences keep it out of the repository, so a test falls back to data of its own then.
+// the data's licences keep it out of the repository. A test then checks data of its own, or skips.
 inline std::optional<std::filesystem::path> DataFolder() {
   const char* const variable = std::getenv("CLEARWAY_DATA");
   const std::filesystem::path folder =
@@ -22,7 +22,7 @@ inline std::optional<std::filesystem::path> DataFolder() {
   std::error_code error;
   if (std::filesystem::is_directory(folder, error)) return folder;
   std::cerr << "[  MISSING ] no real recordings at " << folder
-            << " (set CLEARWAY_DATA to their folder): this test checks its own data only\n";
+            << " (set CLEARWAY_DATA to their folder)\n";
   return std::nullopt;
 }
 
@@ -32,8 +32,7 @@ inline std::optional<std::filesystem::path> DataPath(const std::string& relative
   if (!folder) return std::nullopt;
   std::error_code error;
   if (std::filesystem::exists(*folder / relative, error)) return *folder / relative;
-  std::cerr << "[  MISSING ] no " << relative << " in " << *folder
-            << ": this test checks its own data only\n";
+  std::cerr << "[  MISSING ] no " << relative << " in " << *folder << "\n";
   return std::nullopt;
 }
 

@@ -7,17 +7,19 @@
 
 namespace clearway {
 
-// The upright box around an object's occupied voxels. A value.
+// An upright box around an object. A value.
 struct ObjectExtent {
   double yaw_rad = 0;                                // of the box's length in O, about O's z
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height
   Eigen::Vector3d center_O = Eigen::Vector3d::Zero();
 };
 
-// The smallest upright box around the object's hull. Its length, the longer side, points forwards
-// if the object moves. All zero for an object without an occupied voxel. The smallest rectangle
-// shares a side with the hull: Freeman and Shapira, "Determining the Minimum-Area Encasing
-// Rectangle for an Arbitrary Closed Curve", 1975.
+// The smallest upright box around the centres of the object's occupied voxels, at least a voxel
+// each way: points lie anywhere in their voxels, so that is the best guess of how far apart the
+// surfaces are, while the voxels' corners (Solid::box_O) stick out of them. Its length, the longer
+// side, points forwards if the object moves. All zero for an object without an occupied voxel. The
+// smallest rectangle shares a side with the outline: Freeman and Shapira, "Determining the
+// Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve", 1975.
 ObjectExtent ExtentOf(const MovingObject& object);
 
 }  // namespace clearway
