@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 
 namespace clearway {
@@ -149,6 +150,14 @@ absl::Status ValidateLimits(const ServerLimits& limits) {
                  "limits.max_lease_ttl_s", "times must be at most 1000000 s");
 }
 
+bool NamesAPortOrSocket(const std::string& listen) {
+  if (absl::StartsWith(listen, "unix:")) return listen.size() > 5;
+  const std::size_t colon = listen.rfind(':');
+  int port = 0;
+  return colon != std::string::npos && absl::SimpleAtoi(listen.substr(colon + 1), &port) &&
+         port >= 0 && port <= 65535;
+}
+
 }  // namespace
 
 bool IsLocalAddress(const std::string& listen) {
@@ -164,6 +173,8 @@ absl::Status Validate(const ServerConfig& config) {
       new std::set<std::string>{"trace", "debug", "info", "warning", "error", "off"};
   for (const absl::Status& status :
        {Require(!config.listen.empty(), "listen", "is missing"),
+        Require(NamesAPortOrSocket(config.listen), "listen",
+                absl::StrCat(config.listen, " is neither host:port nor unix:/path")),
         Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
                 "tls_cert and tls_key belong together"),
         Require(tls || IsLocalAddress(config.listen), "listen",

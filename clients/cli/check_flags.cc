@@ -62,17 +62,17 @@ void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
                 "A box where unknown space is free (may be repeated)")
       ->type_name("X,Y,Z,X,Y,Z");
   command->add_option("--padding", flags->padding_m, "Metres added all round the robot")
-      ->check(CLI::NonNegativeNumber.description(""));
+      ->check(Between(0, 1e5));
   command
       ->add_option("--inflation", flags->inflation_mps,
                    "Metres added round each moving object per second\nof prediction")
-      ->check(CLI::NonNegativeNumber.description(""));
+      ->check(Between(0, 1e3));
   command->add_flag("--inflate-moving-only", flags->inflate_moving_only,
                     "No inflation of objects known to be at rest");
   command
       ->add_option("--clearance", flags->clearance_m,
                    "Also the distance to what blocks, up to this many\nmetres")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(Between(0, 1e5));
   command->add_option("--ignore", flags->ignore, "Leave this object out (may be repeated)")
       ->take_all()
       ->allow_extra_args(false);

@@ -2,8 +2,10 @@
 
 #include <memory>
 
+#include "absl/strings/str_format.h"
 #include "cli/commands.h"
 #include "cli/message.h"
+#include "cli/values.h"
 
 namespace clearway::cli {
 namespace {
@@ -51,6 +53,15 @@ CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summa
   command->get_formatter()->column_width(34);
   command->callback([&cli, run = std::move(run)] { cli.action = run; });
   return command;
+}
+
+CLI::Validator Between(double low, double high) {
+  const auto check = [low, high](const std::string& text) {
+    const auto number = ParseFinite(text);
+    if (number.ok() && *number >= low && *number <= high) return std::string();
+    return absl::StrFormat("%s is not between %g and %g", text, low, high);
+  };
+  return CLI::Validator(check, "");
 }
 
 int RunCli(int argc, const char* const* argv, Terminal& terminal) {

@@ -40,6 +40,9 @@ CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summa
 // Parses and runs one command line; returns the exit code.
 int RunCli(int argc, const char* const* argv, Terminal& terminal);
 
+// Refuses what is no number from `low` to `high`, NaN above all. (CLI11's own ranges let NaN pass.)
+CLI::Validator Between(double low, double high);
+
 // Adds a flag whose text is read by `parse`; what that refuses is a usage error with its message.
 // `Target` is T or std::optional<T>.
 template <class Target, class T>

@@ -59,7 +59,7 @@ void AddOccupancy(Cli& cli) {
       ->type_name("X,Y,X,Y");
   command
       ->add_option("--cell", flags->cell_m, "Of the slice: cell size in metres\n(default: a voxel)")
-      ->check(CLI::PositiveNumber.description(""));
+      ->check(Between(0.001, 1e5));
   AddParsedList(command, "--time", &flags->times, ParseTime,
                 "+seconds after the newest stamp, or seconds of\nsensor time (default: now; may be "
                 "repeated)")

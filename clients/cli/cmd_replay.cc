@@ -178,7 +178,7 @@ void AddReplay(Cli& cli) {
       ->add_option(
           "--rate", flags->rate,
           "Times as fast as recorded; 1 is real time\n(default: as fast as the server goes)")
-      ->check(CLI::Range(1e-3, 1e6).description(""));
+      ->check(Between(1e-3, 1e6));
   command->add_option("--from", flags->from, "First frame, counted from 0")->capture_default_str();
   command->add_option("--to", flags->to, "Last frame (default: the source's last)");
   command

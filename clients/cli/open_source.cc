@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/io/recording.h"
 #include "clearway/sim/scenarios.h"
+#include "cli/cli.h"
 
 namespace clearway::cli {
 namespace {
@@ -46,7 +47,7 @@ void AddSimulationFlags(CLI::App* command, SourceFlags* flags) {
   command
       ->add_option("--range-noise", flags->range_noise_m,
                    "Standard deviation along each ray, in metres")
-      ->check(CLI::Range(0.0, 1.0).description(""))
+      ->check(Between(0, 1))
       ->group(group);
   command->add_option("--frames", flags->frames, "Number of frames (default: the scenario's)")
       ->check(CLI::Range(1, 1'000'000).description(""))

@@ -1,6 +1,7 @@
 #include "cli/server_flags.h"
 
 #include "absl/strings/str_cat.h"
+#include "cli/cli.h"
 
 namespace clearway::cli {
 
@@ -10,7 +11,7 @@ void AddServerFlags(CLI::App* command, ServerFlags* flags) {
       ->capture_default_str()
       ->group("Server");
   command->add_option("--timeout", flags->timeout_s, "Longest wait for an answer, in seconds")
-      ->check(CLI::Range(0.001, 1e6).description(""))
+      ->check(Between(0.001, 1e6))
       ->capture_default_str()
       ->group("Server");
   command

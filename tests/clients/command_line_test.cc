@@ -81,6 +81,16 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
   }
 }
 
+TEST(CommandLine, RefusesNumbersOutOfRangeShortly) {
+  for (const std::string bad : {"nan", "-1", "inf", "1e9", "x"}) {
+    const Finished dut = Clearway({"check", "--robot", "sphere:1", "--state", "0,0,0,0",
+                                   "--padding=" + bad, "--server", "127.0.0.1:1"});
+    EXPECT_EQ(dut.exit_code, 2) << bad;
+    EXPECT_THAT(dut.err, HasSubstr("--padding: " + bad + " is not between 0 and 100000")) << bad;
+  }
+  EXPECT_EQ(Clearway({"status", "--timeout", "nan"}).exit_code, 2);
+}
+
 TEST(CommandLine, SaysThatNoServerAnswers) {
   // Port 1 is nobody's.
   const Finished dut = Clearway({"status", "--server", "127.0.0.1:1", "--timeout", "1"});

@@ -113,6 +113,8 @@ TEST(ServerConfig, RefusesBadValuesNamingTheKey) {
       {{"--limits-max-message-bytes", "5000000000"}, "limits.max_message_bytes"},
       {{"--log-level", "loud"}, "log_level"},
       {{"--listen", ""}, "listen"},
+      {{"--listen", "nonsense"}, "listen"},
+      {{"--listen", "localhost:70000"}, "listen"},
       {{"--tls-cert", "a.pem"}, "tls_key"},
   };
   for (const auto& [arguments, key] : cases) {
