@@ -1,5 +1,6 @@
 #include "server/config.h"
 
+#include <arpa/inet.h>
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
@@ -161,10 +162,13 @@ bool NamesAPortOrSocket(const std::string& listen) {
 }  // namespace
 
 bool IsLocalAddress(const std::string& listen) {
-  for (const char* prefix : {"unix:", "127.", "localhost:", "[::1]:", "ipv4:127.", "ipv6:[::1]:"}) {
-    if (absl::StartsWith(listen, prefix)) return true;
-  }
-  return false;
+  if (absl::StartsWith(listen, "unix:")) return true;
+  std::string_view host = std::string_view(listen).substr(0, listen.rfind(':'));
+  if (host.starts_with("ipv4:") || host.starts_with("ipv6:")) host.remove_prefix(5);
+  if (host == "localhost" || host == "[::1]") return true;
+  in_addr address;
+  return inet_pton(AF_INET, std::string(host).c_str(), &address) == 1 &&
+         ntohl(address.s_addr) >> 24 == 127;
 }
 
 absl::Status Validate(const ServerConfig& config) {

@@ -11,8 +11,6 @@
 namespace clearway {
 namespace {
 
-constexpr std::size_t kMaxCheckers = 16;
-
 std::string NewInstance() {
   std::random_device random;
   return absl::StrFormat("%08x%08x", random(), random());
@@ -44,7 +42,7 @@ ServerCore::ServerCore(const ServerConfig& server_config)
       instance(NewInstance()),
       versions(config.kept_versions),
       leases(LeaseOptions(config)),
-      robots(config.limits.max_robots, kMaxCheckers),
+      robots(config.limits, config.scene.resolution_m),
       ingestor(IngestorOptions(config), versions) {}
 
 absl::StatusOr<ScenePtr> ServerCore::SceneFor(const v1::SceneSelector& selector, const Gone& gone) {

@@ -5,6 +5,7 @@
 
 #include <exception>
 
+#include "google/protobuf/message.h"
 #include "server/core.h"
 #include "wire/frame_wire.h"
 #include "wire/geometry_wire.h"
@@ -22,10 +23,13 @@ inline Gone GoneOf(const grpc::ServerContext* context) {
 
 absl::Status InternalFault(const char* name, const std::exception& exception);
 
+// RESOURCE_EXHAUSTED for a message above max_message_bytes.
+absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& request);
+
 // Runs body() -> absl::Status as one call of at most max_calls, and keeps third parties' exceptions
 // from the transport: they are INTERNAL, and never the client's doing.
 template <class Body>
-grpc::Status Handle(ServerCore& core, const char* name, Body&& body) {
+grpc::Status HandleStream(ServerCore& core, const char* name, Body&& body) {
   try {
     const Slot slot(core.calls, core.config.limits.max_calls);
     if (!slot.ok()) return ToGrpc(TooMany("calls", core.config.limits.max_calls));
@@ -35,11 +39,41 @@ grpc::Status Handle(ServerCore& core, const char* name, Body&& body) {
   }
 }
 
+// HandleStream for a call whose client sends one message.
+template <class Body>
+grpc::Status Handle(ServerCore& core, const char* name, const google::protobuf::Message& request,
+                    Body&& body) {
+  return HandleStream(core, name, [&]() -> absl::Status {
+    if (absl::Status status = CheckSize(core, request); !status.ok()) return status;
+    return body();
+  });
+}
+
+// What a stream's next message is.
+enum class Received { kMessage, kEnd, kGarbage };
+
+// Marks the message, so that a read that parses nothing can be told from one that fails to parse:
+// protobuf clears a message before it parses, and gRPC leaves it alone when there is none.
+void Mark(google::protobuf::Message& message);
+bool IsMarked(const google::protobuf::Message& message);
+
+// Reads the stream's next message. gRPC alone reports bytes that are no message as the stream's
+// end.
+template <class Stream, class Request>
+Received ReadNext(Stream& stream, Request& request) {
+  Mark(request);
+  if (stream.Read(&request)) return Received::kMessage;
+  return IsMarked(request) ? Received::kEnd : Received::kGarbage;
+}
+
+// INVALID_ARGUMENT for bytes that are no message of the method's type.
+absl::Status GarbageError();
+
 // Handle for a query: body(scene, gone) -> absl::Status on the version that the request asks for.
 template <class Request, class Body>
 grpc::Status HandleQuery(ServerCore& core, const char* name, const grpc::ServerContext* context,
                          const Request& request, Body&& body) {
-  return Handle(core, name, [&]() -> absl::Status {
+  return Handle(core, name, request, [&]() -> absl::Status {
     const Gone gone = GoneOf(context);
     absl::StatusOr<ScenePtr> scene = core.SceneFor(request.selector(), gone);
     if (!scene.ok()) return scene.status();

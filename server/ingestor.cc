@@ -149,6 +149,11 @@ void Ingestor::Run() {
   }
 }
 
+void Ingestor::CountRefused() {
+  std::lock_guard lock(mutex_);
+  ++counts_.frames_refused;
+}
+
 void Ingestor::Drain() {
   {
     std::lock_guard lock(mutex_);

@@ -63,6 +63,9 @@ class Ingestor {
   // The answer; CANCELLED once `gone` (the frame is applied all the same).
   static Answer Wait(const Ticket& ticket, const Gone& gone);
 
+  // Counts a frame that was refused before it came here.
+  void CountRefused();
+
   // Refuses what is new, finishes what was accepted, and ends the writer thread.
   void Drain();
   IngestCounts counts() const;

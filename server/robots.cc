@@ -1,15 +1,41 @@
 #include "server/robots.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "wire/status.h"
 
 namespace clearway {
+namespace {
+
+constexpr std::size_t kMaxCheckers = 16;
+
+// Of the boxes around its shapes.
+double VolumeOf_m3(const Robot& robot) {
+  double volume_m3 = 0;
+  for (const Link& link : robot.links) {
+    for (const LinkShape& part : link.shapes) volume_m3 += BoundingBox(part.shape).Size().prod();
+  }
+  return volume_m3;
+}
+
+}  // namespace
+
+Robots::Robots(const ServerLimits& limits, double resolution_m)
+    : max_robots_(limits.max_robots),
+      max_voxels_(limits.max_voxels_per_robot),
+      voxel_m3_(std::pow(resolution_m, 3)) {}
 
 absl::StatusOr<std::string> Robots::Register(Robot robot) {
   if (absl::Status status = Validate(robot); !status.ok()) {
     return WithFieldPrefix("robot.", status);
+  }
+  const auto voxels = static_cast<std::uint64_t>(VolumeOf_m3(robot) / voxel_m3_);
+  if (voxels > max_voxels_) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("robot.links: the boxes around their shapes hold ", voxels,
+                     " voxels; the limit is ", max_voxels_));
   }
   const std::string id = RobotId(robot);
   std::list<KnownRobot> entry;
@@ -57,7 +83,7 @@ absl::StatusOr<std::shared_ptr<const SceneChecker>> Robots::CheckerFor(const std
   std::list<KnownChecker> dropped;  // freed after the lock
   std::lock_guard lock(mutex_);
   checkers_.splice(checkers_.begin(), entry);
-  if (checkers_.size() > max_checkers_) {
+  if (checkers_.size() > kMaxCheckers) {
     dropped.splice(dropped.begin(), checkers_, std::prev(checkers_.end()));
   }
   return checker;

@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "clearway/collision/scene_checker.h"
+#include "clearway/wire/server_info.h"
 
 namespace clearway {
 
@@ -15,10 +16,11 @@ namespace clearway {
 // one used longest ago is forgotten. Any thread may call any method.
 class Robots {
  public:
-  Robots(std::size_t max_robots, std::size_t max_checkers)
-      : max_robots_(max_robots), max_checkers_(max_checkers) {}
+  // For scenes of the resolution.
+  Robots(const ServerLimits& limits, double resolution_m);
 
-  // INVALID_ARGUMENT for what Validate(robot) refuses.
+  // INVALID_ARGUMENT for what Validate(robot) refuses, RESOURCE_EXHAUSTED for a robot of more than
+  // max_voxels_per_robot: what one state costs grows with them.
   absl::StatusOr<std::string> Register(Robot robot);
   // NOT_FOUND for a robot that is not, or no longer, known.
   absl::StatusOr<std::shared_ptr<const Robot>> Find(const std::string& id);
@@ -39,7 +41,9 @@ class Robots {
   };
   std::shared_ptr<const SceneChecker> FindChecker(const std::string& id, const ScenePtr& scene);
 
-  const std::size_t max_robots_, max_checkers_;
+  const std::size_t max_robots_;
+  const std::uint64_t max_voxels_;
+  const double voxel_m3_;
   mutable std::mutex mutex_;
   std::list<KnownRobot> robots_;      // used last first
   std::list<KnownChecker> checkers_;  // likewise

@@ -4,7 +4,9 @@
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -50,7 +52,11 @@ std::string BoundAddress(const std::string& listen, int port) {
 }
 
 void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
-  builder.SetMaxReceiveMessageSize(static_cast<int>(limits.max_message_bytes));
+  // Handlers refuse what is above max_message_bytes, and name the field; the transport cannot, so
+  // it only keeps the rest from being taken in.
+  constexpr std::uint64_t kMostOfGrpc = std::numeric_limits<int>::max();
+  builder.SetMaxReceiveMessageSize(
+      static_cast<int>(std::min(2 * limits.max_message_bytes, kMostOfGrpc)));
   builder.SetMaxSendMessageSize(-1);  // replies are bounded by the limits on questions
   // Two servers on one port would share its clients at random.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);

@@ -33,7 +33,7 @@ absl::StatusOr<CheckReply> CheckInPieces(const SceneChecker& checker, const Stat
 grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext*,
                                           const v1::RegisterRobotRequest* request,
                                           v1::RegisterRobotResponse* response) {
-  return Handle(core_, "RegisterRobot", [&]() -> absl::Status {
+  return Handle(core_, "RegisterRobot", *request, [&]() -> absl::Status {
     if (!request->has_robot()) return FieldError("robot", "is missing");
     absl::StatusOr<Robot> robot = ReadRobot("robot", request->robot(), core_.config.limits);
     if (!robot.ok()) return robot.status();
@@ -48,7 +48,7 @@ grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext*,
 grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
                                         const v1::CheckStatesRequest* request,
                                         v1::CheckStatesResponse* response) {
-  return Handle(core_, "CheckStates", [&]() -> absl::Status {
+  return Handle(core_, "CheckStates", *request, [&]() -> absl::Status {
     const Gone gone = GoneOf(context);
     absl::StatusOr<std::shared_ptr<const Robot>> robot = core_.robots.Find(request->robot_id());
     if (!robot.ok()) return robot.status();

@@ -24,8 +24,8 @@ void Pause(Duration time, const ServerCore& core, const Gone& gone) {
 
 // One difference to the newest version at a time: a client that reads slowly blocks Write, and what
 // was published meanwhile becomes one difference. Nothing queues up.
-absl::Status Follow(ServerCore& core, ScenePtr base, Duration min_interval, const Gone& gone,
-                    grpc::ServerWriter<v1::FollowSceneResponse>& writer) {
+absl::Status Follow(ServerCore& core, ScenePtr base, Duration min_interval, MapDetail detail,
+                    const Gone& gone, grpc::ServerWriter<v1::FollowSceneResponse>& writer) {
   while (!gone()) {
     const std::uint64_t wanted = base == nullptr ? 0 : base->version + 1;
     const ScenePtr next = core.versions.WaitFor(wanted, std::chrono::seconds(1), gone);
@@ -39,7 +39,7 @@ absl::Status Follow(ServerCore& core, ScenePtr base, Duration min_interval, cons
       *response.mutable_delta() = part;
       return writer.Write(response);
     };
-    if (!WriteDelta(Diff(base.get(), *next), send)) break;
+    if (!WriteDelta(Diff(base.get(), *next, detail), send)) break;
     base = next;
     Pause(min_interval, core, gone);
   }
@@ -51,7 +51,7 @@ absl::Status Follow(ServerCore& core, ScenePtr base, Duration min_interval, cons
 grpc::Status FollowHandlers::FollowScene(grpc::ServerContext* context,
                                          const v1::FollowSceneRequest* request,
                                          grpc::ServerWriter<v1::FollowSceneResponse>* writer) {
-  return Handle(core_, "FollowScene", [&]() -> absl::Status {
+  return Handle(core_, "FollowScene", *request, [&]() -> absl::Status {
     const std::uint64_t limit = core_.config.limits.max_follow_streams;
     const Slot slot(core_.follow_streams, limit);
     if (!slot.ok()) return TooMany("follow streams", limit);
@@ -62,7 +62,8 @@ grpc::Status FollowHandlers::FollowScene(grpc::ServerContext* context,
     ScenePtr base = request->has_from_version() && ours
                         ? core_.versions.Find(request->from_version())
                         : nullptr;
-    return Follow(core_, std::move(base), FromSeconds(std::min(interval_s, kMaxInterval_s)),
+    const MapDetail detail = request->states_only() ? MapDetail::kStates : MapDetail::kLogOdds;
+    return Follow(core_, std::move(base), FromSeconds(std::min(interval_s, kMaxInterval_s)), detail,
                   GoneOf(context), *writer);
   });
 }

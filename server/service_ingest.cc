@@ -22,6 +22,7 @@ absl::StatusOr<CheckedFrame> ReadRequest(const ServerCore& core, const Request& 
   if (core.draining) {
     return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
   }
+  if (absl::Status status = CheckSize(core, request); !status.ok()) return status;
   absl::StatusOr<AckLevel> level = ReadAckLevel("wait_for", request.wait_for());
   if (!level.ok()) return level.status();
   if (*level == AckLevel::kDurable) {
@@ -134,9 +135,12 @@ class AnswerWriter {
 grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
                                        const v1::PushFrameRequest* request,
                                        v1::PushFrameResponse* response) {
-  return Handle(core_, "PushFrame", [&]() -> absl::Status {
+  return Handle(core_, "PushFrame", *request, [&]() -> absl::Status {
     absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, *request);
-    if (!checked.ok()) return checked.status();
+    if (!checked.ok()) {
+      core_.ingestor.CountRefused();
+      return checked.status();
+    }
     absl::StatusOr<Ingestor::Ticket> ticket = core_.ingestor.Push(std::move(checked->frame));
     if (!ticket.ok()) return ticket.status();
     absl::StatusOr<PushAck> ack = AnswerOf(core_, *ticket, checked->wait_for, GoneOf(context));
@@ -149,24 +153,26 @@ grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
 grpc::Status IngestHandlers::PushFrames(
     grpc::ServerContext* context,
     grpc::ServerReaderWriter<v1::PushFramesResponse, v1::PushFramesRequest>* stream) {
-  return Handle(core_, "PushFrames", [&]() -> absl::Status {
+  return HandleStream(core_, "PushFrames", [&]() -> absl::Status {
     const ServerLimits& limits = core_.config.limits;
     const Slot slot(core_.push_streams, limits.max_push_streams);
     if (!slot.ok()) return TooMany("push streams", limits.max_push_streams);
     const Gone gone = GoneOf(context);
     AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, gone);
     v1::PushFramesRequest request;
-    while (stream->Read(&request)) {
+    Received received;
+    while ((received = ReadNext(*stream, request)) == Received::kMessage) {
       absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, request);
       if (checked.ok()) {
         answers.Owe(request.frame(), checked->wait_for,
                     core_.ingestor.PushWhenRoom(std::move(checked->frame), gone));
       } else {
+        core_.ingestor.CountRefused();
         answers.Owe(request.frame(), AckLevel::kApplied, checked.status());
       }
     }
     answers.Finish();  // before the call ends with a status
-    return absl::OkStatus();
+    return received == Received::kGarbage ? GarbageError() : absl::OkStatus();
   });
 }
 

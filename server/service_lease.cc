@@ -18,7 +18,7 @@ absl::StatusOr<Duration> ReadTtl(double ttl_s) {
 grpc::Status LeaseHandlers::AcquireLease(grpc::ServerContext* context,
                                          const v1::AcquireLeaseRequest* request,
                                          v1::AcquireLeaseResponse* response) {
-  return Handle(core_, "AcquireLease", [&]() -> absl::Status {
+  return Handle(core_, "AcquireLease", *request, [&]() -> absl::Status {
     absl::StatusOr<Duration> ttl = ReadTtl(request->ttl_s());
     if (!ttl.ok()) return ttl.status();
     absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), GoneOf(context));
@@ -34,7 +34,7 @@ grpc::Status LeaseHandlers::AcquireLease(grpc::ServerContext* context,
 
 grpc::Status LeaseHandlers::RenewLease(grpc::ServerContext*, const v1::RenewLeaseRequest* request,
                                        v1::RenewLeaseResponse* response) {
-  return Handle(core_, "RenewLease", [&]() -> absl::Status {
+  return Handle(core_, "RenewLease", *request, [&]() -> absl::Status {
     absl::StatusOr<Duration> ttl = ReadTtl(request->ttl_s());
     if (!ttl.ok()) return ttl.status();
     absl::StatusOr<LeaseGrant> grant = core_.leases.Renew(request->lease_id(), *ttl);
@@ -48,7 +48,7 @@ grpc::Status LeaseHandlers::RenewLease(grpc::ServerContext*, const v1::RenewLeas
 grpc::Status LeaseHandlers::ReleaseLease(grpc::ServerContext*,
                                          const v1::ReleaseLeaseRequest* request,
                                          v1::ReleaseLeaseResponse* response) {
-  return Handle(core_, "ReleaseLease", [&] {
+  return Handle(core_, "ReleaseLease", *request, [&] {
     core_.leases.Release(request->lease_id());
     Write(VersionOf(*core_.versions.Newest()), response->mutable_scene());
     return absl::OkStatus();

@@ -47,13 +47,16 @@ absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>&
                                        std::uint64_t max_bytes, int& format) {
   std::string bytes;
   v1::LoadPriorRequest request;
-  for (bool first = true; reader.Read(&request); first = false) {
+  Received received;
+  for (bool first = true; (received = ReadNext(reader, request)) == Received::kMessage;
+       first = false) {
     if (first) format = request.format();
     if (bytes.size() + request.data().size() > max_bytes) {
       return LimitError("data", bytes.size() + request.data().size(), max_bytes);
     }
     bytes += request.data();
   }
+  if (received == Received::kGarbage) return GarbageError();
   return bytes;
 }
 
@@ -95,7 +98,7 @@ grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
 grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
                                     grpc::ServerReader<v1::LoadPriorRequest>* reader,
                                     v1::LoadPriorResponse* response) {
-  return Handle(core_, "LoadPrior", [&]() -> absl::Status {
+  return HandleStream(core_, "LoadPrior", [&]() -> absl::Status {
     const std::uint64_t max_bytes = core_.config.limits.max_prior_bytes;
     int format = v1::MAP_FORMAT_UNSPECIFIED;
     absl::StatusOr<std::string> bytes = ReadPieces(*reader, max_bytes, format);
@@ -121,7 +124,7 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
 grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
                                       const v1::ClearRegionRequest* request,
                                       v1::ClearRegionResponse* response) {
-  return Handle(core_, "ClearRegion", [&]() -> absl::Status {
+  return Handle(core_, "ClearRegion", *request, [&]() -> absl::Status {
     FieldReader read;
     const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
     if (!read.ok()) return read.status();
@@ -136,7 +139,7 @@ grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
 grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
                                      const v1::SetKeepOutRequest* request,
                                      v1::SetKeepOutResponse* response) {
-  return Handle(core_, "SetKeepOut", [&]() -> absl::Status {
+  return Handle(core_, "SetKeepOut", *request, [&]() -> absl::Status {
     FieldReader read;
     read.AtMost("boxes_world", request->boxes_world_size(), core_.config.limits.max_boxes);
     std::vector<Aabb> boxes_W;
@@ -153,9 +156,9 @@ grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
   });
 }
 
-grpc::Status MapHandlers::Reset(grpc::ServerContext* context, const v1::ResetRequest*,
+grpc::Status MapHandlers::Reset(grpc::ServerContext* context, const v1::ResetRequest* request,
                                 v1::ResetResponse* response) {
-  return Handle(core_, "Reset", [&]() -> absl::Status {
+  return Handle(core_, "Reset", *request, [&]() -> absl::Status {
     const auto change = [](SceneBuilder& builder) {
       builder.Reset();
       return absl::OkStatus();

@@ -5,9 +5,10 @@
 
 namespace clearway {
 
-grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*, const v1::GetServerInfoRequest*,
+grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*,
+                                         const v1::GetServerInfoRequest* request,
                                          v1::GetServerInfoResponse* response) {
-  return Handle(core_, "GetServerInfo", [&] {
+  return Handle(core_, "GetServerInfo", *request, [&] {
     const ScenePtr scene = core_.versions.Newest();
     const ServerInfo info{VersionOf(*scene), CLEARWAY_VERSION, core_.instance, core_.config.limits,
                           scene->params};
@@ -18,7 +19,7 @@ grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*, const v1::GetServ
 
 grpc::Status InfoHandlers::GetStatus(grpc::ServerContext*, const v1::GetStatusRequest* request,
                                      v1::GetStatusResponse* response) {
-  return Handle(core_, "GetStatus", [&] {
+  return Handle(core_, "GetStatus", *request, [&] {
     const ScenePtr scene = core_.versions.Newest();
     const IngestCounts counts = core_.ingestor.counts();
     ServerStatus status;

@@ -172,6 +172,7 @@ std::vector<Setting> LimitSettings() {
       CLEARWAY_LIMIT(max_robots, "robots remembered"),
       CLEARWAY_LIMIT(max_links_per_robot, "links of a robot"),
       CLEARWAY_LIMIT(max_triangles_per_robot, "triangles of a robot"),
+      CLEARWAY_LIMIT(max_voxels_per_robot, "voxels in the boxes around a robot's shapes"),
       CLEARWAY_LIMIT(max_leases, "leases held at once"),
       CLEARWAY_LIMIT(max_lease_ttl_s, "longest time to live of a lease"),
       CLEARWAY_LIMIT(max_follow_streams, "mirrors at once"),

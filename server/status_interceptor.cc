@@ -7,7 +7,7 @@ namespace {
 
 absl::Status Explained(const grpc::Status& status) {
   if (status.error_code() == grpc::StatusCode::INTERNAL) {
-    return FieldError("request", "its bytes are no message of the method's type");
+    return GarbageError();
   }
   return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
 }

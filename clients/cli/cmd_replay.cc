@@ -36,11 +36,6 @@ struct Flags {
   bool json = false;
 };
 
-AckLevel AckLevelOf(const std::string& text) {
-  if (text == "accepted") return AckLevel::kAccepted;
-  return text == "durable" ? AckLevel::kDurable : AckLevel::kApplied;
-}
-
 // Sleeps so that frames leave in the rhythm of their stamps, `rate` times as fast.
 class Pace {
  public:
@@ -93,13 +88,14 @@ Json AsJson(const AckTally::Counts& counts, double seconds) {
 }
 
 void PrintText(std::ostream& out, const AckTally::Counts& counts) {
-  out << "sent " << Plural(counts.answered, "frame") << ", " << Plural(counts.points, "point");
+  out << "sent " << Plural(counts.answered, "frame");
+  if (counts.refused > 0) out << " (" << counts.refused << " refused)";
+  out << ", " << Plural(counts.points, "point");
   if (counts.last.version > 0) {
     out << "; scene version " << counts.last.version << ", newest stamp "
         << Seconds(counts.last.stamp);
   }
   out << "\n";
-  if (counts.refused > 0) out << Plural(counts.refused, "frame") << " refused\n";
   if (counts.repeated > 0) {
     out << Plural(counts.repeated, "frame")
         << " had been sent before and changed nothing ('clearway reset' starts over)\n";
@@ -139,7 +135,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
 
   AckTally tally;
   FrameSender sender(*connection);
-  absl::Status status = sender.OpenStream(tally.OnAck(), AckLevelOf(flags.wait));
+  const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
+  absl::Status status = sender.OpenStream(tally.OnAck(), wait_for);
   if (!status.ok()) return status;
   ProgressBar progress(terminal.err, terminal.err_is_terminal, end - flags.from);
   status =
@@ -181,10 +178,8 @@ void AddReplay(Cli& cli) {
       ->check(Between(1e-3, 1e6));
   command->add_option("--from", flags->from, "First frame, counted from 0")->capture_default_str();
   command->add_option("--to", flags->to, "Last frame (default: the source's last)");
-  command
-      ->add_option("--wait", flags->wait,
-                   "When a frame counts as done: accepted, applied\nor durable")
-      ->check(CLI::IsMember({"accepted", "applied", "durable"}).description(""))
+  command->add_option("--wait", flags->wait, "When a frame counts as done: accepted or applied")
+      ->check(CLI::IsMember({"accepted", "applied"}).description(""))
       ->capture_default_str();
   command->add_flag("--keep-going", flags->keep_going,
                     "Go on after a refused frame (the exit code is 1 still)");

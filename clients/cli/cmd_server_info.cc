@@ -30,6 +30,7 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_robots", l.max_robots},
           {"max_links_per_robot", l.max_links_per_robot},
           {"max_triangles_per_robot", l.max_triangles_per_robot},
+          {"max_voxels_per_robot", l.max_voxels_per_robot},
           {"max_leases", l.max_leases},
           {"max_lease_ttl_s", l.max_lease_ttl_s},
           {"max_follow_streams", l.max_follow_streams},

@@ -52,6 +52,7 @@ struct SceneMirror::Impl {
     }
     v1::FollowSceneRequest request;
     request.set_min_interval_s(ToSeconds(options.min_interval));
+    request.set_states_only(options.states_only);
     ScenePtr base = from_nothing ? nullptr : latest;
     if (base != nullptr) {
       request.set_from_version(base->version);

@@ -14,6 +14,7 @@
 
 #include "clearway/geometry/hull.h"
 #include "collision/closed_form.h"
+#include "collision/contact_if_thrown.h"
 
 namespace clearway {
 namespace {
@@ -104,15 +105,6 @@ double Distance(const Pair& pair) {
   // Negative in contact.
   return std::max(0.0, fcl::distance(pair.shape, pair.shape_pose, pair.obstacle, pair.obstacle_pose,
                                      request, result));
-}
-
-template <class Compute>
-double ContactIfThrown(Compute compute) {
-  try {
-    return compute();
-  } catch (...) {  // libccd gives up on some degenerate contacts
-    return 0;
-  }
 }
 
 }  // namespace

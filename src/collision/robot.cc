@@ -33,15 +33,17 @@ absl::Status CheckMesh(const std::string& field, const std::shared_ptr<const Mes
   if (mesh == nullptr || mesh->triangles.empty()) return Invalid(field, "has no triangles");
   for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
     if (!(mesh->vertices[i].array().abs() <= kMaxSize_m).all()) {
-      return Invalid(absl::StrCat(field, ".vertices[", i, "]"),
-                     absl::StrCat("must be finite and within ", kMaxSize_m, " m"));
+      return Invalid(
+          absl::StrCat(field, ".vertices_m"),
+          absl::StrCat("must be finite and within ", kMaxSize_m, " m; vertex ", i, " is not"));
     }
   }
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
     for (std::uint32_t index : mesh->triangles[i]) {
       if (index < mesh->vertices.size()) continue;
-      return Invalid(absl::StrCat(field, ".triangles[", i, "]"),
-                     absl::StrCat("names vertex ", index, " of ", mesh->vertices.size()));
+      return Invalid(
+          absl::StrCat(field, ".triangles"),
+          absl::StrCat("name vertex ", index, " of ", mesh->vertices.size(), " in triangle ", i));
     }
   }
   return absl::OkStatus();
@@ -74,8 +76,9 @@ absl::Status CheckHull(const std::string& field, const Mesh& mesh) {
     const double allowed = kRelativeTolerance * size_m * normal.norm();
     for (const Eigen::Vector3d& vertex : mesh.vertices) {
       if (normal.dot(vertex - mesh.vertices[a]) <= allowed) continue;
-      return Invalid(absl::StrCat(field, ".triangles[", i, "]"),
-                     "has vertices on its outer side: the mesh is not convex");
+      return Invalid(
+          absl::StrCat(field, ".triangles"),
+          absl::StrCat("are not convex: vertices lie on the outer side of triangle ", i));
     }
   }
   return absl::OkStatus();

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "clearway/scene/occupancy.h"
 #include "report/legend.h"
 #include "report/map_view.h"
+#include "report/path_painter.h"
 
 namespace clearway {
 namespace {
@@ -66,7 +66,7 @@ class TopViewPainter {
               {kMarginPx, kHeaderPx}, options.width_px - 3 * kMarginPx - kLegendPx),
         canvas_(options.width_px,
                 static_cast<int>(kHeaderPx + std::max(view_.size_px().y(), 640.0) + kMarginPx)),
-        last_s_(LastSecond()) {}
+        times_{scene.stamp, LastSecond()} {}
 
   Canvas& Paint() {
     PaintHeader();
@@ -79,7 +79,9 @@ class TopViewPainter {
     PaintObjects();
     PaintPredictions();
     PaintRecorded();
-    for (const TopViewPath& path : options_.paths) PaintPath(path);
+    for (const TopViewPath& path : options_.paths) {
+      report::DrawPath(canvas_, view_, times_, options_, path);
+    }
     PaintLabels();
     report::DrawScale(canvas_, view_);
     canvas_.ResetClip();
@@ -110,10 +112,6 @@ class TopViewPainter {
              options_.recorded.empty());
   }
 
-  Color ColorAt(Time time) const {
-    return report::TimeColor(ToSeconds(time - scene_.stamp) / last_s_);
-  }
-
   void PaintHeader() {
     canvas_.Text({kMarginPx, 46}, options_.title, {.size_px = 27, .bold = true});
     canvas_.Text({kMarginPx, 75}, options_.subtitle, {.size_px = 17, .color = palette::kMuted});
@@ -132,8 +130,8 @@ class TopViewPainter {
   void PaintPredictions() {
     for (const Duration after : options_.predicted_after) {
       const Time time = scene_.stamp + after;
-      const double fraction = ToSeconds(after) / last_s_;
-      const Color color = ColorAt(time).WithAlpha(0.95 - 0.35 * fraction);
+      const double fraction = ToSeconds(after) / times_.last_s;
+      const Color color = times_.At(time).WithAlpha(0.95 - 0.35 * fraction);
       const SceneAtTime then(scene_, time);
       for (const SceneAtTime::Placed& placed : then.objects()) {
         if (placed.object->SpeedMps() < kMovingMps) continue;
@@ -152,78 +150,8 @@ class TopViewPainter {
 
   void PaintRecorded() {
     for (const TopViewOutline& outline : options_.recorded) {
-      canvas_.Outline(view_.ToPixels(outline.polygon_W), {ColorAt(outline.time), 2, 4});
+      canvas_.Outline(view_.ToPixels(outline.polygon_W), {times_.At(outline.time), 2, 4});
     }
-  }
-
-  void PaintPath(const TopViewPath& path) {
-    if (path.poses.empty()) return;
-    Polygon line;
-    for (const TimedPose& pose : path.poses) line.push_back(ToPixels(pose));
-    if (path.reference) {
-      canvas_.Line(line, {palette::kPaper.WithAlpha(0.7), 5});
-      canvas_.Line(line, {palette::kInk, 2, 8});
-      return;
-    }
-    PaintFootprints(path);
-    canvas_.Line(line, {palette::kPaper, 9});
-    for (std::size_t i = 0; i + 1 < path.poses.size(); ++i) {
-      PaintSegment(path.poses[i], path.poses[i + 1]);
-    }
-    PaintEnd(path.poses.front(), "start");
-    PaintEnd(path.poses.back(), "goal");
-  }
-
-  // In pieces short enough for the colour to run smoothly.
-  void PaintSegment(const TimedPose& from, const TimedPose& to) {
-    const int pieces = std::clamp(static_cast<int>(ToSeconds(to.time - from.time) / 0.05), 1, 400);
-    for (int i = 0; i < pieces; ++i) {
-      const TimedPose a = Between(from, to, static_cast<double>(i) / pieces);
-      const TimedPose b = Between(from, to, (i + 1.0) / pieces);
-      canvas_.Line(std::array{ToPixels(a), ToPixels(b)}, {ColorAt(a.time), 5});
-    }
-  }
-
-  void PaintEnd(const TimedPose& pose, const std::string& name) {
-    const Eigen::Vector2d at = ToPixels(pose);
-    canvas_.Circle(at, 7, palette::kPaper, {ColorAt(pose.time), 4});
-    const std::string text =
-        absl::StrFormat("%s, %.1f s", name, ToSeconds(pose.time - scene_.stamp));
-    canvas_.Text(at + Eigen::Vector2d(16, 6), text,
-                 {.size_px = 18, .align = Align::kLeft, .bold = true, .halo_px = 5});
-  }
-
-  void PaintFootprints(const TopViewPath& path) {
-    if (options_.footprint_L.empty()) return;
-    for (const TimedPose& pose : AtSteps(path.poses)) {
-      const Polygon outline = view_.ToPixels(report::Moved(options_.footprint_L, pose.T_W_L));
-      canvas_.Fill(outline, ColorAt(pose.time).WithAlpha(0.13));
-      canvas_.Outline(outline, {ColorAt(pose.time), 2});
-    }
-  }
-
-  // The path's poses every `footprint_every`, and its last one.
-  std::vector<TimedPose> AtSteps(const std::vector<TimedPose>& poses) const {
-    std::vector<TimedPose> steps;
-    Time next = poses.front().time;
-    for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-      const Duration span = poses[i + 1].time - poses[i].time;
-      for (; next < poses[i + 1].time; next += options_.footprint_every) {
-        steps.push_back(
-            Between(poses[i], poses[i + 1], ToSeconds(next - poses[i].time) / ToSeconds(span)));
-      }
-    }
-    steps.push_back(poses.back());
-    return steps;
-  }
-
-  static TimedPose Between(const TimedPose& from, const TimedPose& to, double fraction) {
-    return {from.time + FromSeconds(ToSeconds(to.time - from.time) * fraction),
-            Interpolate(from.T_W_L, to.T_W_L, fraction)};
-  }
-
-  Eigen::Vector2d ToPixels(const TimedPose& pose) const {
-    return view_.ToPixels(Eigen::Vector2d(pose.T_W_L.translation.head<2>()));
   }
 
   void PaintLabels() {
@@ -246,7 +174,7 @@ class TopViewPainter {
                           kLegendPx);
     if (ShowsTimes()) {
       legend.Heading("Time after now");
-      legend.TimeBar(last_s_);
+      legend.TimeBar(times_.last_s);
     }
     legend.Heading("Moving objects");
     legend.Swatch(palette::kMoving, {palette::kInk, 1.2}, "now");
@@ -283,7 +211,7 @@ class TopViewPainter {
   SceneAtTime now_;
   MapView view_;
   Canvas canvas_;
-  double last_s_;
+  report::TimeScale times_;
 };
 
 }  // namespace

@@ -10,7 +10,13 @@ namespace {
 
 constexpr VoxelBlock kEmptyBlock{};
 
-MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to) {
+// What stands for a voxel in a delta.
+LogOdds ValueOf(const VoxelBlock& block, int index, const OccupancyModel& model, MapDetail detail) {
+  if (detail == MapDetail::kLogOdds || !block.observed.Test(index)) return block.log_odds[index];
+  return block.occupied.Test(index) ? model.clamp_max : model.clamp_min;
+}
+
+MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to, MapDetail detail) {
   MapDelta delta;
   const auto add = [&](BlockKey key, const VoxelBlock* before, const VoxelBlock* after) {
     if (before == nullptr) before = &kEmptyBlock;
@@ -18,12 +24,15 @@ MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to) {
     BlockDelta block{key, {}, {}, {}};
     for (int i = 0; i < kVoxelsPerBlock; ++i) {
       const bool observed = after->observed.Test(i);
-      if (observed == before->observed.Test(i) && after->log_odds[i] == before->log_odds[i])
+      const LogOdds value = ValueOf(*after, i, to.model(), detail);
+      if (observed == before->observed.Test(i) &&
+          value == ValueOf(*before, i, to.model(), detail)) {
         continue;
+      }
       block.changed.Set(i);
       if (!observed) continue;
       block.observed.Set(i);
-      block.log_odds.push_back(after->log_odds[i]);
+      block.log_odds.push_back(value);
     }
     if (block.changed.Any()) delta.push_back(std::move(block));
   };
@@ -31,11 +40,11 @@ MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to) {
   return delta;
 }
 
-ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to) {
+ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDetail detail) {
   const VoxelMap empty(to.map_O.grid().resolution_m(), to.map_O.model());
   ObjectDelta delta;
   delta.id = to.id;
-  delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O);
+  delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O, detail);
   delta.history = to.history;
   delta.velocity_O = to.velocity_O;
   delta.T_B_O = to.T_B_O;
@@ -115,7 +124,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
 
 }  // namespace
 
-SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to) {
+SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to, MapDetail detail) {
   const SceneSnapshot empty = SceneSnapshot::Empty(to.params);
   const SceneSnapshot& base = from == nullptr ? empty : *from;
   SceneDelta delta;
@@ -123,10 +132,10 @@ SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to) {
   delta.to_version = to.version;
   delta.stamp = to.stamp;
   if (from == nullptr || !(from->params == to.params)) delta.params = to.params;
-  delta.static_map_W = DiffMaps(base.static_map_W, to.static_map_W);
+  delta.static_map_W = DiffMaps(base.static_map_W, to.static_map_W, detail);
   for (const auto& object : to.objects) {
     const MovingObject* before = base.FindObject(object->id);
-    if (before != object.get()) delta.objects.push_back(DiffObjects(before, *object));
+    if (before != object.get()) delta.objects.push_back(DiffObjects(before, *object, detail));
   }
   for (const auto& object : base.objects) {
     if (to.FindObject(object->id) == nullptr) delta.removed.push_back(object->id);

@@ -15,6 +15,7 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_robots(limits.max_robots);
   proto->set_max_links_per_robot(limits.max_links_per_robot);
   proto->set_max_triangles_per_robot(limits.max_triangles_per_robot);
+  proto->set_max_voxels_per_robot(limits.max_voxels_per_robot);
   proto->set_max_leases(limits.max_leases);
   proto->set_max_lease_ttl_s(limits.max_lease_ttl_s);
   proto->set_max_follow_streams(limits.max_follow_streams);
@@ -39,6 +40,7 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_robots = proto.max_robots();
   limits.max_links_per_robot = proto.max_links_per_robot();
   limits.max_triangles_per_robot = proto.max_triangles_per_robot();
+  limits.max_voxels_per_robot = proto.max_voxels_per_robot();
   limits.max_leases = proto.max_leases();
   limits.max_lease_ttl_s = proto.max_lease_ttl_s();
   limits.max_follow_streams = proto.max_follow_streams();

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "absl/strings/cord.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
 
@@ -62,7 +63,7 @@ std::size_t FieldEnd(const std::string& message) {
            c == ']' || c == '=';
   };
   while (end < message.size() && belongs(message[end])) ++end;
-  const bool separated = end < message.size() && (message[end] == ':' || message[end] == ' ');
+  const bool separated = end < message.size() && absl::StrContains(":, ", message.substr(end, 1));
   const bool named = end > 0 && (std::islower(static_cast<unsigned char>(message[0])) != 0);
   return separated && named ? end : 0;
 }

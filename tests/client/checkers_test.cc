@@ -44,20 +44,32 @@ struct Remote {
   }
 };
 
+ScenePtr MirrorOf(const ScenePtr& scene, const SceneMirrorOptions& options) {
+  const auto server = ServerWith(scene);
+  auto mirror = SceneMirror::Follow(server->Connect(), options);
+  EXPECT_TRUE(mirror.ok()) << mirror.status();
+  auto mirrored = (*mirror)->WaitFor(scene->version, std::chrono::seconds(60));
+  EXPECT_TRUE(mirrored.ok()) << mirrored.status();
+  return *std::move(mirrored);
+}
+
 struct Mirrored {
   static std::shared_ptr<const StateChecker> Make(ScenePtr scene, Robot robot) {
-    const auto server = ServerWith(scene);
-    auto mirror = SceneMirror::Follow(server->Connect());
-    EXPECT_TRUE(mirror.ok()) << mirror.status();
-    const auto mirrored = (*mirror)->WaitFor(scene->version, std::chrono::seconds(60));
-    EXPECT_TRUE(mirrored.ok()) << mirrored.status();
-    EXPECT_EQ((*mirrored)->Hash(), scene->Hash());
-    return std::make_shared<SceneChecker>(*mirrored, std::move(robot));
+    const ScenePtr mirrored = MirrorOf(scene, {});
+    EXPECT_EQ(mirrored->Hash(), scene->Hash());
+    return std::make_shared<SceneChecker>(mirrored, std::move(robot));
+  }
+};
+
+struct MirroredStates {
+  static std::shared_ptr<const StateChecker> Make(ScenePtr scene, Robot robot) {
+    return std::make_shared<SceneChecker>(MirrorOf(scene, {.states_only = true}), std::move(robot));
   }
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Remote, CheckerSuite, Remote);
 INSTANTIATE_TYPED_TEST_SUITE_P(Mirrored, CheckerSuite, Mirrored);
+INSTANTIATE_TYPED_TEST_SUITE_P(MirroredStates, CheckerSuite, MirroredStates);
 
 }  // namespace
 }  // namespace clearway

@@ -7,6 +7,7 @@
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/client/scene_mirror.h"
+#include "clearway/scene/scene_delta.h"
 #include "support/frames.h"
 #include "support/test_server.h"
 
@@ -83,6 +84,20 @@ TEST_F(MirrorTest, IsEqualAfterAnySequenceOfSkips) {
     ExpectEqual(*dut, Push(60));
     EXPECT_EQ(dut->stats().full_syncs, 1u);
   }
+}
+
+TEST_F(MirrorTest, OfStatesIsTheServersInEveryState) {
+  const auto dut = Follow({.min_interval = std::chrono::milliseconds(2), .states_only = true});
+  const auto whole = Follow();
+  const std::uint64_t version = Push(60);
+  const auto scene = dut->WaitFor(version, kPatience);
+  ASSERT_TRUE(scene.ok()) << scene.status();
+  const ScenePtr truth = server_.core().versions.Find((*scene)->version);
+  const auto states = Apply(nullptr, Diff(nullptr, *truth, MapDetail::kStates));
+  ASSERT_TRUE(states.ok()) << states.status();
+  EXPECT_EQ((*scene)->Hash(), states->Hash());
+  EXPECT_NE((*scene)->Hash(), truth->Hash());
+  ExpectEqual(*whole, version);
 }
 
 TEST_F(MirrorTest, FollowsChangesByHand) {

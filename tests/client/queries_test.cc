@@ -1,8 +1,6 @@
 // Queries through client and server agree with the same questions asked of the scene itself.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "clearway/client/error_details.h"
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/remote_checker.h"
@@ -191,7 +189,8 @@ TEST_F(QueriesTest, ARobotThatWasForgottenIsRegisteredAgain) {
   const auto checker = RemoteChecker::Pin(connection_, Robot::SingleShape("ball", Sphere{0.3}));
   ASSERT_TRUE(checker.ok()) << checker.status();
   for (int i = 0; i < 100; ++i) {
-    ASSERT_TRUE(server_.core().robots.Register(Robot::SingleShape("ball", Sphere{1.0 + i})).ok());
+    ASSERT_TRUE(
+        server_.core().robots.Register(Robot::SingleShape("ball", Sphere{1 + 0.01 * i})).ok());
   }
   EXPECT_LE(server_.core().robots.size(), server_.core().config.limits.max_robots);
   EXPECT_TRUE((*checker)->Check({{scene_->stamp}, {Pose{}}}, {}).ok());

@@ -22,7 +22,8 @@ struct Findings {
   bool unsure = false;
   double nearest_m = 0;
 
-  void Look(int link, const Body& body, const Obstacle& obstacle, const CheckOptions& options) {
+  void Look(int link, const RobotBody& body, const Obstacle& obstacle,
+            const CheckOptions& options) {
     const LinkAndObject pair{link, obstacle.id};
     const auto& allowed = options.allowed_contacts;
     if ((obstacle.status == SpaceStatus::kOccupied ||
@@ -85,9 +86,9 @@ struct BruteForce::Impl {
 
   std::vector<Obstacle> StaticObstacles() const;
   void AddObject(const MovingObject& object, Time time, std::vector<Obstacle>& obstacles) const;
-  double UnknownShare(const std::vector<Body>& bodies) const;
+  double UnknownShare(const std::vector<RobotBody>& bodies) const;
   void AddWalls(std::vector<Obstacle>& obstacles) const;
-  std::vector<Body> BodiesOf(int link, const Pose* T_W_L) const;
+  std::vector<RobotBody> BodiesOf(int link, const Pose* T_W_L) const;
 };
 
 BruteForce::BruteForce(ScenePtr scene, const Robot& robot, const CheckOptions& options,
@@ -177,7 +178,7 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
   }
 }
 
-double BruteForce::Impl::UnknownShare(const std::vector<Body>& bodies) const {
+double BruteForce::Impl::UnknownShare(const std::vector<RobotBody>& bodies) const {
   const VoxelMap& map = scene->static_map_W;
   const auto unknown = [&](VoxelKey key) {
     return map.State(key) == VoxelState::kUnknown &&
@@ -186,7 +187,7 @@ double BruteForce::Impl::UnknownShare(const std::vector<Body>& bodies) const {
   double all = 0, unknown_count = 0;
   for (const VoxelKey& key : keys) {
     const Eigen::Vector3d center = map.grid().CenterOf(key);
-    const bool inside = std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    const bool inside = std::any_of(bodies.begin(), bodies.end(), [&](const RobotBody& body) {
       if ((center - body.pose_W.translation()).norm() > body.radius_m) return false;
       return Contains(*body.shape, body.pose_W.inverse() * center);
     });
@@ -195,7 +196,7 @@ double BruteForce::Impl::UnknownShare(const std::vector<Body>& bodies) const {
   }
   if (all > 0) return unknown_count / all;
   std::set<VoxelKey> central;
-  for (const Body& body : bodies) {
+  for (const RobotBody& body : bodies) {
     central.insert(map.grid().KeyOf(body.pose_W * BoundingBox(*body.shape).Center()));
   }
   return static_cast<double>(std::count_if(central.begin(), central.end(), unknown)) /
@@ -218,8 +219,8 @@ void BruteForce::Impl::AddWalls(std::vector<Obstacle>& obstacles) const {
   }
 }
 
-std::vector<Body> BruteForce::Impl::BodiesOf(int link, const Pose* T_W_L) const {
-  std::vector<Body> bodies;
+std::vector<RobotBody> BruteForce::Impl::BodiesOf(int link, const Pose* T_W_L) const {
+  std::vector<RobotBody> bodies;
   for (std::size_t s = 0; s < links[link].size(); ++s) {
     const LinkShape& shape = robot.links[link].shapes[s];
     bodies.push_back({links[link][s], AsIsometry(T_W_L[link]) * AsIsometry(shape.T_L_G),
@@ -233,9 +234,9 @@ BruteAnswer BruteForce::Check(Time time, const Pose* T_W_L) const {
   for (const auto& object : impl_->scene->objects) impl_->AddObject(*object, time, moving);
   Findings findings;
   findings.nearest_m = impl_->options.clearance_up_to_m.value_or(0);
-  std::vector<Body> all;
+  std::vector<RobotBody> all;
   for (int link = 0; link < static_cast<int>(impl_->links.size()); ++link) {
-    for (const Body& body : impl_->BodiesOf(link, T_W_L)) {
+    for (const RobotBody& body : impl_->BodiesOf(link, T_W_L)) {
       for (const auto* obstacles : {&impl_->static_obstacles, &moving}) {
         for (const Obstacle& obstacle : *obstacles) {
           findings.Look(link, body, obstacle, impl_->options);

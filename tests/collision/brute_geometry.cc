@@ -81,7 +81,8 @@ Sizes HullSizes(const Solid& solid) {
   return {grown(-relative), grown(0), grown(relative)};
 }
 
-double Distance(const Body& body, const FclGeometry& obstacle, const Eigen::Isometry3d& pose_W) {
+double Distance(const RobotBody& body, const FclGeometry& obstacle,
+                const Eigen::Isometry3d& pose_W) {
   const bool is_mesh = std::holds_alternative<TriangleMesh>(*body.shape);
   if (is_mesh) {  // FCL knows the surface alone, and its mesh-sphere distances are not 0 in contact
     if (Contains(*body.shape, body.pose_W.inverse() * pose_W.translation())) return 0;
@@ -97,7 +98,7 @@ double Distance(const Body& body, const FclGeometry& obstacle, const Eigen::Isom
                                      request, result));
 }
 
-Verdict Touches(const Body& body, const Obstacle& obstacle, double margin_m) {
+Verdict Touches(const RobotBody& body, const Obstacle& obstacle, double margin_m) {
   const double distance_m = Distance(body, obstacle.geometry.exact, obstacle.pose_W);
   if (distance_m > margin_m + 1e-4) return Verdict::kApart;
   if (Distance(body, obstacle.geometry.smaller, obstacle.pose_W) <= margin_m) {

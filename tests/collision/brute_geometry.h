@@ -29,7 +29,7 @@ struct Obstacle {
 };
 
 // One shape of a robot.
-struct Body {
+struct RobotBody {
   FclGeometry geometry;
   Eigen::Isometry3d pose_W;
   const Shape* shape;
@@ -39,9 +39,10 @@ FclGeometry GeometryOf(const Shape& shape);
 double RadiusOf(const Shape& shape);
 Eigen::Isometry3d AsIsometry(const Pose& pose);
 
-double Distance(const Body& body, const FclGeometry& obstacle, const Eigen::Isometry3d& pose_W);
+double Distance(const RobotBody& body, const FclGeometry& obstacle,
+                const Eigen::Isometry3d& pose_W);
 
 enum class Verdict { kApart, kUnsure, kTouching };
-Verdict Touches(const Body& body, const Obstacle& obstacle, double margin_m);
+Verdict Touches(const RobotBody& body, const Obstacle& obstacle, double margin_m);
 
 }  // namespace clearway

@@ -132,8 +132,9 @@ TEST(RobotTest, RefusesBadShapesByField) {
       {ConvexPolytope{Shared(Dented())}, "not convex"},
       {TriangleMesh{nullptr}, "mesh has no triangles"},
       {TriangleMesh{Shared(Mesh{})}, "mesh has no triangles"},
-      {TriangleMesh{Shared(not_finite)}, "mesh.vertices[3]"},
-      {TriangleMesh{Shared(out_of_range)}, "mesh.triangles[5] names vertex 8 of 8"},
+      {TriangleMesh{Shared(not_finite)},
+       "mesh.vertices_m must be finite and within 100 m; vertex 3"},
+      {TriangleMesh{Shared(out_of_range)}, "mesh.triangles name vertex 8 of 8 in triangle 5"},
   };
   for (const Refused& refused : cases) {
     const absl::Status status = Validate(Robot::SingleShape("r", refused.shape));

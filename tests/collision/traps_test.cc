@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "clearway/collision/scene_checker.h"
+#include "collision/contact_if_thrown.h"
 #include "collision/random_world.h"
 #include "collision/test_world.h"
 #include "collision/voxel_search.h"
@@ -121,6 +123,11 @@ TEST(TrapsTest, AWorldDeclaredFreeHasAClearance) {
       Check(TestWorld(), Robot::SingleShape("ball", Sphere{0.1}), At(0, 0, 0), options);
   EXPECT_EQ(reply.answers[0].status, SpaceStatus::kFree);
   EXPECT_EQ(reply.answers[0].clearance_m, 1e5);
+}
+
+TEST(TrapsTest, AnExceptionOfLibccdMeansContact) {
+  EXPECT_EQ(ContactIfThrown([]() -> double { throw std::logic_error("libccd gave up"); }), 0);
+  EXPECT_EQ(ContactIfThrown([] { return 1.5; }), 1.5);
 }
 
 }  // namespace

@@ -75,6 +75,48 @@ TEST(SceneDelta, FromNothingItIsTheWholeScene) {
   }
 }
 
+void ExpectSameStates(const VoxelMap& a, const VoxelMap& b) {
+  BlockTree::ForEachDifference(a.blocks(), b.blocks(),
+                               [](BlockKey, const VoxelBlock* left, const VoxelBlock* right) {
+                                 const VoxelBlock none;
+                                 EXPECT_EQ((left == nullptr ? none : *left).observed,
+                                           (right == nullptr ? none : *right).observed);
+                                 EXPECT_EQ((left == nullptr ? none : *left).occupied,
+                                           (right == nullptr ? none : *right).occupied);
+                               });
+}
+
+std::size_t ChangedVoxels(const SceneDelta& delta) {
+  std::size_t count = 0;
+  for (const BlockDelta& block : delta.static_map_W) count += block.changed.Count();
+  return count;
+}
+
+// The law for states alone, and that they are the states of the scene.
+TEST(SceneDelta, OfStatesMakesTheSceneOfTheStates) {
+  const auto versions = RandomVersions(3, 24);
+  const auto states_of = [](const SceneSnapshot& scene) {
+    return *Apply(nullptr, Diff(nullptr, scene, MapDetail::kStates));
+  };
+  testing_support::Random random(3);
+  std::size_t changed = 0, changed_states = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto& a = versions[random.Integer(0, 24)];
+    const auto& b = versions[random.Integer(0, 24)];
+    const SceneSnapshot base = states_of(*a);
+    const auto applied = Apply(&base, Diff(a.get(), *b, MapDetail::kStates));
+    ASSERT_TRUE(applied.ok()) << applied.status();
+    ExpectEqual(*applied, states_of(*b));
+    ExpectSameStates(applied->static_map_W, b->static_map_W);
+    for (const auto& object : b->objects) {
+      ExpectSameStates(applied->FindObject(object->id)->map_O, object->map_O);
+    }
+    changed += ChangedVoxels(Diff(a.get(), *b));
+    changed_states += ChangedVoxels(Diff(a.get(), *b, MapDetail::kStates));
+  }
+  EXPECT_LT(changed_states, changed);
+}
+
 TEST(SceneDelta, HoldsChangedVoxelsAlone) {
   ThreadPool pool(1);
   SceneBuilder builder({}, {}, pool);

@@ -87,8 +87,13 @@ TEST_F(BadInput, Frames) {
 
 TEST_F(BadInput, AMessageThatIsTooLarge) {
   v1::Frame frame = Good();
+  frame.mutable_points_m()->Resize(1 << 14, 0.f);  // 64 KiB, the limit, and some more
+  Expect(Push(frame), absl::StatusCode::kResourceExhausted, "request");
+  v1::CheckStatesRequest check = GoodCheck(0);
+  check.mutable_times_ns()->Resize(1 << 16, 1);
+  Expect(Check(check), absl::StatusCode::kResourceExhausted, "request");
   frame.mutable_points_m()->Resize(1 << 16, 0.f);
-  // The transport refuses it before it is read: no details.
+  // The transport refuses it before it is taken in: no details.
   const absl::Status refused = Push(frame);
   EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
 }
@@ -125,6 +130,45 @@ TEST_F(BadInput, AStreamAnswersEachFrameAndLivesOn) {
   Expect(FromProto(response.error()), absl::StatusCode::kInvalidArgument, "wait_for");
   EXPECT_FALSE(stream->Read(&response));
   EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(BadInput, AMessageOfAStreamThatIsTooLarge) {
+  grpc::ClientContext context;
+  const auto stream = ingest_->PushFrames(&context);
+  v1::PushFramesRequest request;
+  *request.mutable_frame() = Good();
+  request.mutable_frame()->mutable_points_m()->Resize(1 << 14, 0.f);
+  ASSERT_TRUE(stream->Write(request));
+  request.mutable_frame()->set_labels(0, -3);
+  request.mutable_frame()->mutable_points_m()->Resize(3, 0.f);
+  ASSERT_TRUE(stream->Write(request));
+  stream->WritesDone();
+  v1::PushFramesResponse response;
+  ASSERT_TRUE(stream->Read(&response));
+  Expect(FromProto(response.error()), absl::StatusCode::kResourceExhausted, "request");
+  EXPECT_EQ(response.sequence(), request.frame().sequence());
+  ASSERT_TRUE(stream->Read(&response));
+  Expect(FromProto(response.error()), absl::StatusCode::kInvalidArgument, "frame.labels[0]");
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(BadInput, BytesInAStreamThatAreNoMessage) {
+  for (const char* method :
+       {"/clearway.v1.IngestService/PushFrames", "/clearway.v1.MapService/LoadPrior"}) {
+    for (const char* bytes : {"\xff\xff\xff\xff\xff", "\x0a"}) {
+      const grpc::Slice garbage(bytes);
+      const grpc::Status status =
+          testing_support::RawStream(*channel_, method, grpc::ByteBuffer(&garbage, 1));
+      Expect(Explain(status), absl::StatusCode::kInvalidArgument, "request");
+    }
+  }
+}
+
+TEST_F(BadInput, RefusedFramesAreCounted) {
+  v1::Frame frame = Good();
+  frame.set_labels(0, -3);
+  EXPECT_FALSE(Push(frame).ok());
+  EXPECT_EQ(server_.core().ingestor.counts().frames_refused, 1u);
 }
 
 TEST_F(BadInput, ClientsThatDieMidStreamLeaveNothingBehind) {

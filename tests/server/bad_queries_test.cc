@@ -46,7 +46,8 @@ TEST_F(BadInput, Robots) {
   broken->vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   broken->triangles = {{0, 1, 7}};
   Expect(refused(Robot::SingleShape("x", TriangleMesh{broken})), Code::kInvalidArgument,
-         "robot.links[0].shapes[0].mesh.triangles[0]");
+         "robot.links[0].shapes[0].mesh.triangles");
+  Expect(refused(Robot::SingleShape("x", Sphere{99})), Code::kResourceExhausted, "robot.links");
   v1::RegisterRobotResponse response;
   Expect(
       Call(*check_, &v1::CheckService::Stub::RegisterRobot, v1::RegisterRobotRequest(), &response),
@@ -153,9 +154,9 @@ TEST_F(BadInput, Maps) {
     stream->WritesDone();
     return Explain(stream->Finish());
   };
-  EXPECT_EQ(load(v1::MAP_FORMAT_PLY, "x").code(), Code::kInvalidArgument);
-  EXPECT_EQ(load(v1::MAP_FORMAT_BT, "not a tree").code(), Code::kInvalidArgument);
-  EXPECT_EQ(load(v1::MAP_FORMAT_BT, "").code(), Code::kInvalidArgument);
+  Expect(load(v1::MAP_FORMAT_PLY, "x"), Code::kInvalidArgument, "format");
+  Expect(load(v1::MAP_FORMAT_BT, "not a tree"), Code::kInvalidArgument, "data");
+  Expect(load(v1::MAP_FORMAT_BT, ""), Code::kInvalidArgument, "data");
   Expect(load(v1::MAP_FORMAT_OT, std::string(1001, 'x')), Code::kResourceExhausted, "data");
   v1::SetKeepOutRequest keep_out;
   for (int i = 0; i < 4; ++i) keep_out.add_boxes_world();

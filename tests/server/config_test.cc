@@ -131,10 +131,12 @@ TEST(ServerConfig, RefusesAFileThatIsNotToml) {
 }
 
 TEST(ServerConfig, AddressesThatOthersReachNeedTls) {
-  for (const char* local : {"127.0.0.1:0", "localhost:1", "[::1]:5", "unix:/tmp/x"}) {
+  for (const char* local :
+       {"127.0.0.1:0", "ipv4:127.0.0.2:0", "localhost:1", "[::1]:5", "unix:/tmp/x"}) {
     EXPECT_TRUE(ReadCommandLine({"--listen", local}, {}).ok()) << local;
   }
-  for (const char* open : {"0.0.0.0:1", "[::]:1", "10.0.0.1:1", "example.org:1"}) {
+  for (const char* open :
+       {"0.0.0.0:1", "[::]:1", "127.example.org:1", "10.0.0.1:1", "example.org:1"}) {
     EXPECT_EQ(Refusal({"--listen", open}).rfind("listen", 0), 0u) << open;
     EXPECT_TRUE(ReadCommandLine({"--listen", open, "--tls-cert", "c", "--tls-key", "k"}, {}).ok());
   }

@@ -16,4 +16,21 @@ inline grpc::Status RawCall(grpc::Channel& channel, const char* method,
       request, &response);
 }
 
+// Sends one message through a stream of any kind and returns what it ends with.
+inline grpc::Status RawStream(grpc::Channel& channel, const char* method,
+                              const grpc::ByteBuffer& request) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  const std::unique_ptr<grpc::ClientReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>> stream(
+      grpc::internal::ClientReaderWriterFactory<grpc::ByteBuffer, grpc::ByteBuffer>::Create(
+          &channel, grpc::internal::RpcMethod(method, grpc::internal::RpcMethod::BIDI_STREAMING),
+          &context));
+  stream->Write(request);
+  stream->WritesDone();
+  grpc::ByteBuffer response;
+  while (stream->Read(&response)) {
+  }
+  return stream->Finish();
+}
+
 }  // namespace clearway::testing_support

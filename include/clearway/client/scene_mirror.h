@@ -13,6 +13,9 @@ struct SceneMirrorOptions {
   // At most one delta in this time; zero: as fast as they can be applied. Versions in between are
   // skipped.
   Duration min_interval{0};
+  // Voxels as free, occupied or unknown alone: fewer bytes, the same statuses, collisions and
+  // clearances, but no log-odds (MapDetail::kStates).
+  bool states_only = false;
   // Pause before a broken stream is opened again.
   Duration reconnect_after = std::chrono::milliseconds(200);
 };
@@ -26,9 +29,9 @@ struct SceneMirrorStats {
 };
 
 // Follows a server's scene in a background thread. Versions may be skipped, but each one shown is
-// the server's bit for bit (equal SceneSnapshot::Hash). A gap, a damaged delta or another server
-// behind the address makes it start again from nothing; meanwhile Latest() stays what it was. Any
-// thread may call any method.
+// the server's bit for bit (equal SceneSnapshot::Hash), or with states_only its states. A gap, a
+// damaged delta or another server behind the address makes it start again from nothing; meanwhile
+// Latest() stays what it was. Any thread may call any method.
 class SceneMirror {
  public:
   // Returns once the first version is here (or the connection's deadline has passed).

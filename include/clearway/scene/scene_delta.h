@@ -47,13 +47,24 @@ struct SceneDelta {
   std::vector<ObjectId> removed;     // ascending ids
 };
 
+// How much of the voxels a delta tells.
+enum class MapDetail {
+  kLogOdds,
+  // Free, occupied or unknown alone: of an observed voxel the log-odds are the model's clamp on its
+  // side. Far fewer voxels differ between two scans.
+  kStates,
+};
+
 // Takes time in proportion to the blocks written between the two. `from` null: the empty scene,
 // version 0.
-SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to);
+SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to,
+                MapDetail detail = MapDetail::kLogOdds);
 
-// Apply(a, Diff(a, b)) == b, bit for bit. `base` null: the empty scene. FAILED_PRECONDITION if the
-// delta starts from another version than base's; INVALID_ARGUMENT if it is not well formed (it may
-// come from the network).
+// Apply(a, Diff(a, b)) == b, bit for bit. With kStates, where S(x) is Apply(null, Diff(null, x,
+// kStates)), likewise Apply(S(a), Diff(a, b, kStates)) == S(b), and S(b) answers every question of
+// status, collision and clearance as b does; its fused log-odds are its own. `base` null: the empty
+// scene. FAILED_PRECONDITION if the delta starts from another version than base's; INVALID_ARGUMENT
+// if it is not well formed (it may come from the network).
 absl::StatusOr<SceneSnapshot> Apply(const SceneSnapshot* base, const SceneDelta& delta);
 
 }  // namespace clearway

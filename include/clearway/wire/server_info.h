@@ -20,6 +20,7 @@ struct ServerLimits {
   std::uint64_t max_robots = 64;
   std::uint64_t max_links_per_robot = 256;
   std::uint64_t max_triangles_per_robot = 500'000;
+  std::uint64_t max_voxels_per_robot = 20'000'000;
   std::uint64_t max_leases = 256;
   double max_lease_ttl_s = 600;
   std::uint64_t max_follow_streams = 128;
