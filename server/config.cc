@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -60,6 +61,9 @@ absl::Status CollectToml(const toml::table& table, const std::string& prefix, Va
 }
 
 absl::Status ReadFile(const std::string& path, Values& values) {
+  if (std::filesystem::is_directory(path)) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": is a folder"));
+  }
   try {
     return CollectToml(toml::parse_file(path), "", values);
   } catch (const toml::parse_error& error) {

@@ -1,5 +1,7 @@
 #include "server/handler.h"
 
+#include <chrono>
+
 #include "google/protobuf/unknown_field_set.h"
 #include "spdlog/spdlog.h"
 
@@ -14,6 +16,18 @@ grpc::Status ToGrpc(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;
   const google::rpc::Status proto = ToProto(status);
   return {static_cast<grpc::StatusCode>(proto.code()), proto.message(), proto.SerializeAsString()};
+}
+
+Gone GoneOf(const grpc::ServerContext* context) {
+  using Clock = std::chrono::steady_clock;
+  return [context, gone = false, next_look = Clock::time_point()]() mutable {
+    const Clock::time_point now = Clock::now();
+    if (!gone && now >= next_look) {
+      gone = context->IsCancelled();
+      next_look = now + std::chrono::milliseconds(1);
+    }
+    return gone;
+  };
 }
 
 absl::Status InternalFault(const char* name, const std::exception& exception) {

@@ -79,6 +79,12 @@ absl::StatusOr<Ingestor::Ticket> Ingestor::PushLocked(std::unique_lock<std::mute
   return ticket;
 }
 
+std::optional<Ingestor::Ticket> Ingestor::Find(const std::string& sensor_id,
+                                               std::uint64_t sequence) const {
+  std::lock_guard lock(mutex_);
+  return Remembered({sensor_id, sequence});
+}
+
 absl::StatusOr<Ingestor::Ticket> Ingestor::Push(Frame frame) {
   std::unique_lock lock(mutex_);
   return PushLocked(lock, std::move(frame));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -31,6 +32,7 @@ struct IngestCounts {
 // Applies frames and other changes in the order they were accepted, and publishes a version after
 // each. Any thread may call any method. A frame is named by (sensor_id, sequence): a repeat gets
 // the first one's answer, refusals by the scene included, as long as the answer is remembered.
+// Frames that were never accepted leave no trace.
 class Ingestor {
  public:
   using Answer = absl::StatusOr<PushAck>;
@@ -38,6 +40,10 @@ class Ingestor {
   struct Ticket {
     std::shared_future<Answer> answer;
     bool repeated = false;
+
+    bool Answered() const {
+      return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    }
   };
   using Change = std::function<absl::Status(SceneBuilder&)>;
 
@@ -53,6 +59,8 @@ class Ingestor {
   Ingestor(const Options& options, Versions& versions);
   ~Ingestor();  // drains
 
+  // The frame of this name that was accepted before, if it is remembered.
+  std::optional<Ticket> Find(const std::string& sensor_id, std::uint64_t sequence) const;
   // RESOURCE_EXHAUSTED if the queue is full, UNAVAILABLE while draining.
   absl::StatusOr<Ticket> Push(Frame frame);
   // As Push, but waits for room in the queue; CANCELLED once `gone`.

@@ -9,6 +9,8 @@
 namespace clearway {
 namespace {
 
+constexpr std::int64_t kMaxFlatVoxels = std::int64_t{1} << 28;
+
 absl::StatusOr<const MovingObject*> FindObject(const SceneSnapshot& scene, ObjectId id) {
   if (const MovingObject* found = scene.FindObject(id)) return found;
   return WithReason(absl::NotFoundError(
@@ -16,9 +18,10 @@ absl::StatusOr<const MovingObject*> FindObject(const SceneSnapshot& scene, Objec
                     "UNKNOWN_OBJECT");
 }
 
-absl::StatusOr<VoxelMap> MapOf(const SceneSnapshot& scene, const ExportTarget& target) {
+absl::StatusOr<VoxelMap> MapOf(const SceneSnapshot& scene, const ExportTarget& target,
+                               const Gone& gone) {
   if (const auto* at = std::get_if<SceneAtTarget>(&target)) {
-    return FlattenScene(SceneAtTime(scene, at->time));
+    return FlattenScene(SceneAtTime(scene, at->time), kMaxFlatVoxels, gone);
   }
   if (const auto* object = std::get_if<ObjectTarget>(&target)) {
     absl::StatusOr<const MovingObject*> found = FindObject(scene, object->id);
@@ -51,9 +54,9 @@ absl::StatusOr<std::string> PlyOf(const SceneSnapshot& scene, const ExportTarget
 }  // namespace
 
 absl::StatusOr<std::string> ExportedFile(const SceneSnapshot& scene, const ExportTarget& target,
-                                         MapFormat format) {
+                                         MapFormat format, const Gone& gone) {
   if (format == MapFormat::kPly) return PlyOf(scene, target);
-  absl::StatusOr<VoxelMap> map = MapOf(scene, target);
+  absl::StatusOr<VoxelMap> map = MapOf(scene, target, gone);
   if (!map.ok()) return map.status();
   return SerializeOctomap(*map,
                           format == MapFormat::kBt ? OctomapFormat::kBinary : OctomapFormat::kFull);

@@ -3,6 +3,9 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -49,6 +52,22 @@ std::string BoundAddress(const std::string& listen, int port) {
   const std::size_t colon = listen.rfind(':');
   if (listen.rfind("unix:", 0) == 0 || colon == std::string::npos) return listen;
   return absl::StrCat(listen.substr(0, colon + 1), port);
+}
+
+// gRPC would take the socket away from a server that listens there.
+absl::Status CheckSocketIsFree(const std::string& listen) {
+  sockaddr_un address{};
+  if (!listen.starts_with("unix:")) return absl::OkStatus();
+  const std::string_view path = std::string_view(listen).substr(5);
+  if (path.size() >= sizeof(address.sun_path)) return absl::OkStatus();  // gRPC says so itself
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, path.size());
+  const int client = socket(AF_UNIX, SOCK_STREAM, 0);
+  const bool answers =
+      connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(client);
+  if (!answers) return absl::OkStatus();
+  return absl::AlreadyExistsError(absl::StrCat("listen: another server listens on ", listen));
 }
 
 void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
@@ -101,6 +120,7 @@ ServerCore& Server::core() { return impl_->core; }
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
   absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials = CredentialsOf(config);
   if (!credentials.ok()) return credentials.status();
+  if (auto status = CheckSocketIsFree(config.listen); !status.ok()) return status;
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   auto impl = std::make_unique<Impl>(config);
@@ -119,7 +139,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   impl->server = builder.BuildAndStart();
   if (impl->server == nullptr || port == 0) {
     return absl::AlreadyExistsError(
-        absl::StrCat("listen: cannot listen on ", config.listen, "; is the address in use?"));
+        absl::StrCat("listen: cannot listen on ", config.listen,
+                     "; is the address in use, or the socket's folder missing?"));
   }
   impl->address = BoundAddress(config.listen, port);
   impl->server->GetHealthCheckService()->SetServingStatus(true);

@@ -4,31 +4,6 @@
 #include "wire/robot_wire.h"
 
 namespace clearway {
-namespace {
-
-constexpr std::size_t kStatesPerLook = 64;  // between two looks at whether the client has gone
-
-// Checks the batch piece by piece, so that an abandoned call ends soon.
-absl::StatusOr<CheckReply> CheckInPieces(const SceneChecker& checker, const StateBatch& states,
-                                         const CheckOptions& options, const Gone& gone) {
-  const std::size_t links = checker.robot().links.size();
-  CheckReply reply{checker.version(), checker.stamp(), {}};
-  std::size_t begin = 0;
-  do {  // once for an empty batch too: the options may be wrong
-    if (gone()) return absl::CancelledError("the client has gone");
-    const std::size_t end = std::min(begin + kStatesPerLook, states.times.size());
-    const StateBatch piece{
-        {states.times.begin() + begin, states.times.begin() + end},
-        {states.T_W_L.begin() + begin * links, states.T_W_L.begin() + end * links}};
-    absl::StatusOr<CheckReply> part = checker.Check(piece, options);
-    if (!part.ok()) return part.status();
-    reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
-    begin = end;
-  } while (begin < states.times.size());
-  return reply;
-}
-
-}  // namespace
 
 grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext*,
                                           const v1::RegisterRobotRequest* request,
@@ -64,7 +39,7 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
     if (!scene.ok()) return scene.status();
     auto checker = core_.robots.CheckerFor(request->robot_id(), *scene);
     if (!checker.ok()) return checker.status();
-    absl::StatusOr<CheckReply> reply = CheckInPieces(**checker, *states, *options, gone);
+    absl::StatusOr<CheckReply> reply = (*checker)->Check(*states, *options, gone);
     if (!reply.ok()) return reply.status();
     Write(*reply, options->clearance_up_to_m.has_value(), response);
     return absl::OkStatus();

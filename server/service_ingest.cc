@@ -11,14 +11,21 @@
 namespace clearway {
 namespace {
 
-struct CheckedFrame {
-  Frame frame;
+// A frame in the queue, or one of its name whose answer is remembered.
+struct Accepted {
+  Ingestor::Ticket ticket;
   AckLevel wait_for = AckLevel::kApplied;
 };
 
-// Of PushFrame and PushFrames alike.
-template <class Request>
-absl::StatusOr<CheckedFrame> ReadRequest(const ServerCore& core, const Request& request) {
+absl::StatusOr<Frame> FrameOf(const ServerCore& core, const v1::Frame& proto) {
+  const ServerLimits& limits = core.config.limits;
+  return ReadFrame("frame", proto,
+                   {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m});
+}
+
+// Of PushFrame and PushFrames alike. push(Frame) puts a frame into the queue.
+template <class Request, class Push>
+absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&& push) {
   if (core.draining) {
     return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
   }
@@ -31,18 +38,26 @@ absl::StatusOr<CheckedFrame> ReadRequest(const ServerCore& core, const Request& 
                       "NO_JOURNAL");
   }
   if (!request.has_frame()) return FieldError("frame", "is missing");
-  const ServerLimits& limits = core.config.limits;
-  absl::StatusOr<Frame> frame =
-      ReadFrame("frame", request.frame(),
-                {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m});
-  if (!frame.ok()) return frame.status();
-  return CheckedFrame{*std::move(frame), *level};
+  const v1::Frame& proto = request.frame();
+  if (auto known = core.ingestor.Find(proto.sensor_id(), proto.sequence());
+      known && proto.has_sequence()) {
+    return Accepted{*std::move(known), *level};
+  }
+  absl::StatusOr<Frame> frame = FrameOf(core, proto);
+  if (!frame.ok()) {
+    core.ingestor.CountRefused();
+    return frame.status();
+  }
+  absl::StatusOr<Ingestor::Ticket> ticket = push(*std::move(frame));
+  if (!ticket.ok()) return ticket.status();
+  return Accepted{*std::move(ticket), *level};
 }
 
-// The answer at the level asked for.
-absl::StatusOr<PushAck> AnswerOf(const ServerCore& core, const Ingestor::Ticket& ticket,
-                                 AckLevel level, const Gone& gone) {
-  if (level == AckLevel::kAccepted) {
+// The answer at the level asked for, or the first answer if it is there already.
+absl::StatusOr<PushAck> AnswerOf(const ServerCore& core, const Accepted& accepted,
+                                 const Gone& gone) {
+  const Ingestor::Ticket& ticket = accepted.ticket;
+  if (accepted.wait_for == AckLevel::kAccepted && !(ticket.repeated && ticket.Answered())) {
     const ScenePtr scene = core.versions.Newest();
     return PushAck{{scene->version, scene->stamp}, AckLevel::kAccepted, {}, ticket.repeated};
   }
@@ -66,10 +81,10 @@ class AnswerWriter {
   ~AnswerWriter() { Finish(); }
 
   // Waits while the window is full.
-  void Owe(const v1::Frame& frame, AckLevel level, absl::StatusOr<Ingestor::Ticket> ticket) {
+  void Owe(const v1::Frame& frame, absl::StatusOr<Accepted> accepted) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return owed_.size() < window_; });
-    owed_.push_back({frame.sensor_id(), frame.sequence(), level, std::move(ticket)});
+    owed_.push_back({frame.sensor_id(), frame.sequence(), std::move(accepted)});
     changed_.notify_all();
   }
 
@@ -87,8 +102,7 @@ class AnswerWriter {
   struct Owed {
     std::string sensor_id;
     std::uint64_t sequence = 0;
-    AckLevel level = AckLevel::kApplied;
-    absl::StatusOr<Ingestor::Ticket> ticket;
+    absl::StatusOr<Accepted> accepted;
   };
 
   void Run() {
@@ -110,7 +124,7 @@ class AnswerWriter {
     response.set_sensor_id(owed.sensor_id);
     response.set_sequence(owed.sequence);
     const absl::StatusOr<PushAck> answer =
-        owed.ticket.ok() ? AnswerOf(core_, *owed.ticket, owed.level, gone_) : owed.ticket.status();
+        owed.accepted.ok() ? AnswerOf(core_, *owed.accepted, gone_) : owed.accepted.status();
     if (answer.ok()) {
       Write(*answer, response.mutable_ack());
     } else {
@@ -136,14 +150,10 @@ grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
                                        const v1::PushFrameRequest* request,
                                        v1::PushFrameResponse* response) {
   return Handle(core_, "PushFrame", *request, [&]() -> absl::Status {
-    absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, *request);
-    if (!checked.ok()) {
-      core_.ingestor.CountRefused();
-      return checked.status();
-    }
-    absl::StatusOr<Ingestor::Ticket> ticket = core_.ingestor.Push(std::move(checked->frame));
-    if (!ticket.ok()) return ticket.status();
-    absl::StatusOr<PushAck> ack = AnswerOf(core_, *ticket, checked->wait_for, GoneOf(context));
+    absl::StatusOr<Accepted> accepted =
+        Accept(core_, *request, [&](Frame frame) { return core_.ingestor.Push(std::move(frame)); });
+    if (!accepted.ok()) return accepted.status();
+    absl::StatusOr<PushAck> ack = AnswerOf(core_, *accepted, GoneOf(context));
     if (!ack.ok()) return ack.status();
     Write(*ack, response);
     return absl::OkStatus();
@@ -162,14 +172,9 @@ grpc::Status IngestHandlers::PushFrames(
     v1::PushFramesRequest request;
     Received received;
     while ((received = ReadNext(*stream, request)) == Received::kMessage) {
-      absl::StatusOr<CheckedFrame> checked = ReadRequest(core_, request);
-      if (checked.ok()) {
-        answers.Owe(request.frame(), checked->wait_for,
-                    core_.ingestor.PushWhenRoom(std::move(checked->frame), gone));
-      } else {
-        core_.ingestor.CountRefused();
-        answers.Owe(request.frame(), AckLevel::kApplied, checked.status());
-      }
+      answers.Owe(request.frame(), Accept(core_, request, [&](Frame frame) {
+                    return core_.ingestor.PushWhenRoom(std::move(frame), gone);
+                  }));
     }
     answers.Finish();  // before the call ends with a status
     return received == Received::kGarbage ? GarbageError() : absl::OkStatus();

@@ -83,7 +83,8 @@ grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
                        if (!format.ok()) return format.status();
                        absl::StatusOr<ExportTarget> target = ReadTarget(*request);
                        if (!target.ok()) return target.status();
-                       absl::StatusOr<std::string> file = ExportedFile(scene, *target, *format);
+                       absl::StatusOr<std::string> file =
+                           ExportedFile(scene, *target, *format, gone);
                        if (!file.ok()) return file.status();
                        v1::ExportMapResponse response;
                        Write(VersionOf(scene), response.mutable_scene());

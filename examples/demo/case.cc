@@ -27,10 +27,14 @@ struct Place {
   std::shared_ptr<const StateChecker> checker;
 };
 
+// What the straight way has to touch, for a place to pose the problem.
+enum class Obstacle { kBlocker, kAnythingThatMoves };
+
 // FAILED_PRECONDITION or NOT_FOUND: the place is void.
 absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
                               const SceneSnapshot& scene, const Candidate& candidate,
-                              double margin_m, const Truth& truth, PlanSettings settings) {
+                              Obstacle obstacle, double margin_m, const Truth& truth,
+                              PlanSettings settings) {
   const auto crossing = candidate();
   if (!crossing.ok()) return crossing.status();
   constexpr double kGroundRadiusM = 4;
@@ -42,6 +46,10 @@ absl::StatusOr<Place> Examine(const std::shared_ptr<Connection>& connection,
   place.straight = Judge(truth, *crossing, place.straight_way);
   if (!place.straight.contact || place.straight.touched == kStaticLabel) {
     return absl::FailedPreconditionError("the straight way touches nothing that moves");
+  }
+  if (obstacle == Obstacle::kBlocker && place.straight.touched != crossing->blocker) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("the straight way touches object ", place.straight.touched));
   }
   auto checker = RemoteChecker::Pin(connection, crossing->RobotModel(margin_m),
                                     {.min_version = scene.version});
@@ -56,18 +64,20 @@ bool IsVoid(const absl::Status& status) {
   return absl::IsFailedPrecondition(status) || absl::IsNotFound(status);
 }
 
-// The nearest place that poses the problem. NOT_FOUND if there is none; `void_places` gets the
-// reasons.
+// The nearest place that poses the problem, if need be before another moving object than the one
+// whose way is crossed. NOT_FOUND if there is none; `void_places` gets the reasons.
 absl::StatusOr<Place> ChoosePlace(const std::shared_ptr<Connection>& connection,
                                   const SceneSnapshot& scene, const Problem& problem,
                                   const Truth& truth, const PlanSettings& settings,
                                   std::vector<std::string>& void_places) {
-  for (const double margin_m : settings.margins_m) {
-    void_places.clear();
-    for (const Candidate& candidate : problem.candidates) {
-      auto place = Examine(connection, scene, candidate, margin_m, truth, settings);
-      if (place.ok() || !IsVoid(place.status())) return place;
-      void_places.emplace_back(place.status().message());
+  for (const Obstacle obstacle : {Obstacle::kBlocker, Obstacle::kAnythingThatMoves}) {
+    for (const double margin_m : settings.margins_m) {
+      void_places.clear();
+      for (const Candidate& candidate : problem.candidates) {
+        auto place = Examine(connection, scene, candidate, obstacle, margin_m, truth, settings);
+        if (place.ok() || !IsVoid(place.status())) return place;
+        void_places.emplace_back(place.status().message());
+      }
     }
   }
   return absl::NotFoundError("void: no place along the object's path poses the problem");

@@ -37,13 +37,19 @@ SceneChecker::~SceneChecker() = default;
 
 absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
                                                const CheckOptions& options) const {
+  return Check(states, options, [] { return false; });
+}
+
+absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
+                                               const CheckOptions& options,
+                                               const std::function<bool()>& cancelled) const {
   if (auto status = Validate(options, impl_->robot); !status.ok()) return status;
   if (auto status = Validate(states, impl_->robot); !status.ok()) return status;
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
                                                             options.allowed_contacts.end());
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
   std::vector<PlacedObject> objects;
-  const CheckContext context{*impl_->scene, options, allowed_contacts, objects};
+  const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
   std::optional<Time> placed_at;
   for (std::size_t s : OrderByTime(states.times)) {
     if (placed_at != states.times[s]) {
@@ -52,6 +58,7 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
     }
     const Pose* T_W_L = &states.T_W_L[s * impl_->geometry.size()];
     reply.answers[s] = StateCheck(context, impl_->geometry, T_W_L).Answer();
+    if (cancelled()) return absl::CancelledError("the check was cancelled");
   }
   return reply;
 }

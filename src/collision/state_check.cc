@@ -102,7 +102,8 @@ std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
   const double padding_m = context_.options.padding_m;
   for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
     for (const PlacedShape& shape : links_W_[link]) {
-      if (DistanceToUnobserved(map, shape, context_.options.known_free_W, padding_m) <= padding_m) {
+      if (DistanceToUnobserved(map, shape, context_.options.known_free_W, padding_m,
+                               context_.cancelled) <= padding_m) {
         return Touch{link, kStaticLabel};
       }
     }
@@ -115,7 +116,8 @@ double StateCheck::UnknownShare() const {
   for (const auto& link : links_W_) {
     for (const PlacedShape& shape : link) shapes.push_back(&shape);
   }
-  return UnknownShareOf(context_.scene.static_map_W, context_.options.known_free_W, shapes);
+  return UnknownShareOf(context_.scene.static_map_W, context_.options.known_free_W, shapes,
+                        context_.cancelled);
 }
 
 // Lets every kind of obstacle search only as far as the nearest one so far.
@@ -133,8 +135,9 @@ double StateCheck::Clearance() const {
         nearest_m = std::min(nearest_m, DistanceTo(object, shape, nearest_m));
       }
       if (options.unknown != UnknownPolicy::kBlocked) continue;
-      nearest_m = std::min(nearest_m, DistanceToUnobserved(context_.scene.static_map_W, shape,
-                                                           options.known_free_W, nearest_m));
+      nearest_m = std::min(
+          nearest_m, DistanceToUnobserved(context_.scene.static_map_W, shape, options.known_free_W,
+                                          nearest_m, context_.cancelled));
     }
   }
   return std::max(0.0, nearest_m - padding_m);

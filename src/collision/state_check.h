@@ -9,6 +9,7 @@
 #include "clearway/collision/state_checker.h"
 #include "collision/narrowphase.h"
 #include "collision/placed_object.h"
+#include "collision/voxel_search.h"
 
 namespace clearway {
 
@@ -29,6 +30,7 @@ struct CheckContext {
   const CheckOptions& options;
   const std::set<std::pair<int, ObjectId>>& allowed_contacts;
   const std::vector<PlacedObject>& objects;
+  const Cancelled& cancelled;  // once true, answers mean nothing
 };
 
 // A state under check. Lives on one thread's stack.

@@ -16,7 +16,7 @@ struct Count {
 
 // Each voxel is counted with the first of the shapes that holds its centre.
 Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
-                  const std::vector<const PlacedShape*>& shapes) {
+                  const std::vector<const PlacedShape*>& shapes, const Cancelled& cancelled) {
   Count count;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const auto counted_before = [&](const Eigen::Vector3d& center) {
@@ -37,7 +37,7 @@ Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
                        ++count.all;
                        count.unknown += unobserved.Test(index) && !InOneOf(known_free, center);
                      });
-                     return false;
+                     return cancelled();
                    });
   }
   return count;
@@ -59,8 +59,8 @@ Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
 }  // namespace
 
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
-                      const std::vector<const PlacedShape*>& shapes_W) {
-  const Count inside = CountInside(map_W, known_free_W, shapes_W);
+                      const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled) {
+  const Count inside = CountInside(map_W, known_free_W, shapes_W, cancelled);
   return inside.all > 0 ? inside.Share() : CountAtCenters(map_W, known_free_W, shapes_W).Share();
 }
 

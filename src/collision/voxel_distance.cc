@@ -51,10 +51,39 @@ Aabb BoxOfCell(const VoxelGrid& grid, BlockKey min, int level) {
   return box;
 }
 
-bool WithinOneOf(const std::vector<Aabb>& boxes, const Aabb& inner) {
-  return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& box) {
-    return box.Contains(inner.min) && box.Contains(inner.max);
-  });
+// The centres of the cell's voxels span this.
+Aabb CentersOf(const VoxelGrid& grid, Aabb cell) {
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * grid.resolution_m());
+  return {cell.min + half, cell.max - half};
+}
+
+// Whether the boxes from `next` on cover `inner` together: what sticks out of the first that meets
+// it has to be covered by those after it. Takes steps from `effort` and gives up, with false, when
+// they are used up.
+bool Cover(const std::vector<Aabb>& boxes, std::size_t next, const Aabb& inner, int& effort) {
+  if (--effort < 0) return false;
+  while (next < boxes.size() && !boxes[next].Intersects(inner)) ++next;
+  if (next == boxes.size()) return false;
+  const Aabb& box = boxes[next];
+  Aabb rest = inner;  // shrinks to the part inside the box
+  for (int axis = 0; axis < 3; ++axis) {
+    if (rest.min[axis] < box.min[axis]) {
+      Aabb below = rest;
+      below.max[axis] = rest.min[axis] = box.min[axis];
+      if (!Cover(boxes, next + 1, below, effort)) return false;
+    }
+    if (rest.max[axis] > box.max[axis]) {
+      Aabb above = rest;
+      above.min[axis] = rest.max[axis] = box.max[axis];
+      if (!Cover(boxes, next + 1, above, effort)) return false;
+    }
+  }
+  return true;
+}
+
+bool Covered(const std::vector<Aabb>& boxes, const Aabb& inner) {
+  int effort = 100;
+  return Cover(boxes, 0, inner, effort);
 }
 
 }  // namespace
@@ -97,9 +126,11 @@ double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double 
 }
 
 // Best first through an implicit octree over all addressable blocks: a region never observed has no
-// end, but its nearest part is found after a few descents; regions declared free are cut off whole.
+// end, but its nearest part is found after a few descents; regions declared free, by however many
+// boxes, are cut off whole.
 double DistanceToUnobserved(const VoxelMap& map, const PlacedShape& shape,
-                            const std::vector<Aabb>& known_free, double up_to_m) {
+                            const std::vector<Aabb>& known_free, double up_to_m,
+                            const Cancelled& cancelled) {
   constexpr int kRootLevel =
       std::countr_zero(static_cast<unsigned>(2 * kMaxVoxelIndex / kBlockSize));
   constexpr std::int32_t kLowest = -kMaxVoxelIndex / kBlockSize;
@@ -108,7 +139,7 @@ double DistanceToUnobserved(const VoxelMap& map, const PlacedShape& shape,
   double nearest_m = std::nextafter(up_to_m, kFar);
   std::priority_queue<Cell, std::vector<Cell>, std::greater<>> open;
   open.push({0, kRootLevel, {kLowest, kLowest, kLowest}});
-  while (!open.empty() && open.top().bound_m < nearest_m) {
+  while (!open.empty() && open.top().bound_m < nearest_m && !cancelled()) {
     const Cell cell = open.top();
     open.pop();
     if (cell.level == 0) {
@@ -123,7 +154,8 @@ double DistanceToUnobserved(const VoxelMap& map, const PlacedShape& shape,
                          cell.min.z + ((child >> 2) << level)};
       const Aabb box = BoxOfCell(grid, min, level);
       const double bound_m = BoxBoxDistance(shape.box_F(), box);
-      if (bound_m < nearest_m && !WithinOneOf(known_free, box)) open.push({bound_m, level, min});
+      if (bound_m >= nearest_m || Covered(known_free, CentersOf(grid, box))) continue;
+      open.push({bound_m, level, min});
     }
   }
   return nearest_m;

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <vector>
 
 #include "clearway/geometry/aabb.h"
 #include "clearway/map/voxel_map.h"
 
 namespace clearway {
+
+// Whether nobody waits for the answer any more: long searches ask now and then, and give up.
+using Cancelled = std::function<bool()>;
 
 // Voxels by the ends of a range of keys, both included.
 struct KeyRange {

@@ -43,9 +43,11 @@ void Block(VoxelMap& map, VoxelKey key) {
   if (map.State(key) != VoxelState::kOccupied) map.Set(key, map.model().clamp_max);
 }
 
-void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last, VoxelMap& map) {
+void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last,
+                const std::function<bool()>& cancelled, VoxelMap& map) {
   for (std::int32_t z = first.z; z <= last.z; ++z) {
     for (std::int32_t y = first.y; y <= last.y; ++y) {
+      if (cancelled()) return;
       for (std::int32_t x = first.x; x <= last.x; ++x) {
         const SpaceStatus status = scene.At(map.grid().CenterOf({x, y, z})).status;
         if (status == SpaceStatus::kOccupied || status == SpaceStatus::kBeyondHorizon) {
@@ -71,7 +73,8 @@ void BlockVoxelsOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, 
 
 }  // namespace
 
-absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max_voxels) {
+absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max_voxels,
+                                      const std::function<bool()>& cancelled) {
   VoxelMap map = scene.scene().static_map_W;
   const std::vector<Aabb> boxes = BoxesToSearch(scene);
   double voxels = 0;
@@ -84,7 +87,8 @@ absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max
                      " voxels; the limit is ", max_voxels));
   }
   for (const Aabb& box : boxes) {
-    BlockInBox(scene, map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), map);
+    BlockInBox(scene, map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), cancelled, map);
+    if (cancelled()) return absl::CancelledError("the export was cancelled");
   }
   for (const SceneAtTime::Placed& placed : scene.objects()) BlockVoxelsOf(scene, placed, map);
   return map;

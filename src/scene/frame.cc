@@ -1,7 +1,6 @@
 #include "clearway/scene/frame.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "absl/container/flat_hash_set.h"
 #include "absl/strings/str_cat.h"
@@ -10,7 +9,6 @@ namespace clearway {
 namespace {
 
 constexpr double kUnitTolerance = 1e-4;
-constexpr double kMaxTurn = 0.9 * std::numbers::pi;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
@@ -74,9 +72,9 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
       !status.ok()) {
     return status;
   }
-  if (const double turn = Log(motion.H_W).angular.norm(); turn > kMaxTurn) {
+  if (const double turn = Log(motion.H_W).angular.norm(); turn > kMaxTurn_rad) {
     return Invalid(motion_field, absl::StrCat("turns by ", turn, " rad in one step; the limit is ",
-                                              kMaxTurn, " rad (its direction is ambiguous)"));
+                                              kMaxTurn_rad, " rad (its direction is ambiguous)"));
   }
   const std::string from_field = absl::StrCat(field, ".from_stamp_ns");
   if (auto status = CheckStamp(from_field, motion.from); !status.ok()) return status;

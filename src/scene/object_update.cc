@@ -5,8 +5,14 @@
 namespace clearway {
 namespace {
 
+// Of about half a turn nobody knows the direction: then the translation alone counts.
 Twist VelocityBetween(const Pose& T_W_O1, Time t1, const Pose& T_W_O2, Time t2) {
-  return (1.0 / ToSeconds(t2 - t1)) * Log(Inverse(T_W_O1) * T_W_O2);
+  Twist step = Log(Inverse(T_W_O1) * T_W_O2);
+  if (step.angular.norm() > kMaxTurn_rad) {
+    step = {Eigen::Vector3d::Zero(),
+            T_W_O1.rotation.conjugate() * (T_W_O2.translation - T_W_O1.translation)};
+  }
+  return (1.0 / ToSeconds(t2 - t1)) * step;
 }
 
 void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
@@ -50,24 +56,6 @@ struct ClippedRays {
   std::vector<RayEnd> kinds;
 };
 
-// The parameter interval of the segment a + s (b - a), 0 <= s <= 1, inside the box; empty if first
-// > second.
-std::pair<double, double> ClipSegment(const Aabb& box, const Eigen::Vector3d& a,
-                                      const Eigen::Vector3d& b) {
-  double begin = 0, end = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = b[axis] - a[axis];
-    if (d == 0) {
-      if (a[axis] < box.min[axis] || a[axis] > box.max[axis]) return {1, 0};
-      continue;
-    }
-    const double s = (box.min[axis] - a[axis]) / d, t = (box.max[axis] - a[axis]) / d;
-    begin = std::max(begin, std::min(s, t));
-    end = std::min(end, std::max(s, t));
-  }
-  return {begin, end};
-}
-
 ClippedRays RaysNear(const MovingObject& object, const LabelledCloud& cloud,
                      std::span<const std::uint32_t> points, const SceneParams& params) {
   const Pose T_O_W = Inverse(object.history.back().T_W_O);
@@ -83,7 +71,7 @@ ClippedRays RaysNear(const MovingObject& object, const LabelledCloud& cloud,
     const LimitedRay limited = LimitRay(grid, params.rays, origin_W, cloud.ends_W[i]);
     const Eigen::Vector3d origin_O = T_O_W * origin_W.cast<double>();
     const Eigen::Vector3d end_O = T_O_W * limited.end.cast<double>();
-    const auto [begin, end] = ClipSegment(box_O, origin_O, end_O);
+    const auto [begin, end] = Clip(box_O, origin_O, end_O - origin_O, {0, 1});
     if (begin > end) continue;
     const bool returned = end == 1 && limited.within_range && cloud.kinds[i] != RayEnd::kClear;
     rays.origins_O.push_back((origin_O + begin * (end_O - origin_O)).cast<float>());
@@ -145,9 +133,9 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
 
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
                 const SceneParams& params) {
-  const bool placed = clue.motion != nullptr || clue.pose != nullptr;
-  return !clue.points.empty() && !placed && !object.AtRest() &&
-         stamp - object.t_k() > params.horizon;
+  if (clue.pose != nullptr && object.T_B_O) return false;
+  const Time needed = clue.motion != nullptr ? clue.motion->from : stamp;
+  return !object.AtRest() && needed - object.t_k() > params.horizon;
 }
 
 void AddPoints(MovingObject& object, const LabelledCloud& cloud,

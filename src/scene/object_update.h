@@ -27,8 +27,9 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
 MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
                    const SceneParams& params);
 
-// Whether the object was unseen for so long that neither a motion nor a prediction tells where O is
-// in this frame: its model has to be begun anew.
+// Whether the object was unplaced for so long that nothing tells where O is in this frame: a motion
+// that starts, or a prediction that would have to reach, beyond the horizon. Its model has to be
+// begun anew.
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
                 const SceneParams& params);
 

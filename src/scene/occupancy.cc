@@ -43,24 +43,6 @@ SpaceStatus ObjectSays(const SceneAtTime::Placed& placed, SolidMode mode,
   return SpaceStatus::kFree;
 }
 
-// The part of a ray inside a box, as an interval of distances; empty if begin > end.
-struct Interval {
-  double begin_m, end_m;
-};
-Interval Clip(const Aabb& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& unit,
-              Interval along) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (unit[axis] == 0) {
-      if (origin[axis] < box.min[axis] || origin[axis] > box.max[axis]) return {1, 0};
-      continue;
-    }
-    const double a = (box.min[axis] - origin[axis]) / unit[axis];
-    const double b = (box.max[axis] - origin[axis]) / unit[axis];
-    along = {std::max(along.begin_m, std::min(a, b)), std::min(along.end_m, std::max(a, b))};
-  }
-  return along;
-}
-
 }  // namespace
 
 SceneAtTime::SceneAtTime(const SceneSnapshot& scene, Time t) : scene_(&scene), time_(t) {
@@ -119,21 +101,20 @@ RayAnswer CastQueryRay(const SceneAtTime& scene, const Eigen::Vector3d& origin_W
     answer.first_unknown_m = 0;
     return answer;
   }
-  const Interval inside = Clip(space, origin_W, unit, {0, max_range_m});
-  const Eigen::Vector3d end_W = origin_W + inside.end_m * unit;
+  const LinePart inside = Clip(space, origin_W, unit, {0, max_range_m});
+  const Eigen::Vector3d end_W = origin_W + inside.end * unit;
 
   const auto look_at = [&](VoxelKey key) {
     if (answer.first_hit_m) return;
-    const Interval in_voxel = Clip(grid.BoxOf(key), origin_W, unit, inside);
-    if (in_voxel.begin_m > in_voxel.end_m)
-      return;  // the walk's float end strays from the exact ray
-    const double middle_m = 0.5 * (in_voxel.begin_m + in_voxel.end_m);
+    const LinePart in_voxel = Clip(grid.BoxOf(key), origin_W, unit, inside);
+    if (in_voxel.begin > in_voxel.end) return;  // the walk's float end strays from the exact ray
+    const double middle_m = 0.5 * (in_voxel.begin + in_voxel.end);
     const PointOccupancy found = scene.At(origin_W + middle_m * unit);
     if (found.status == SpaceStatus::kOccupied) {
-      answer.first_hit_m = in_voxel.begin_m;
+      answer.first_hit_m = in_voxel.begin;
       answer.object = found.object;
     } else if (found.status != SpaceStatus::kFree && !answer.first_unknown_m) {
-      answer.first_unknown_m = in_voxel.begin_m;
+      answer.first_unknown_m = in_voxel.begin;
     }
   };
   WalkRay(grid, origin_W.cast<float>(), end_W.cast<float>(), look_at);

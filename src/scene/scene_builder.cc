@@ -21,21 +21,33 @@ std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& 
   return clues;
 }
 
-// The object after the frame; none for a clue without points to an object that is not known.
+// The object after the frame; none for a clue without points to an object of which the place is not
+// known.
 std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, const ObjectClue& clue,
                                     const LabelledCloud& cloud, Time stamp,
                                     const SceneParams& params, ThreadPool& pool) {
   const bool seen = !clue.points.empty();
-  if (known == nullptr && !seen) return std::nullopt;
-  MovingObject object = known == nullptr || OutOfReach(*known, clue, stamp, params)
-                            ? FirstSight(id, cloud, clue, stamp, params)
-                            : Moved(*known, clue, stamp, params);
+  const bool placed = known != nullptr && !OutOfReach(*known, clue, stamp, params);
+  if (!placed && !seen) return std::nullopt;
+  MovingObject object =
+      placed ? Moved(*known, clue, stamp, params) : FirstSight(id, cloud, clue, stamp, params);
   if (seen) AddPoints(object, cloud, clue.points, stamp, params, pool);
   return object;
 }
 
+// What of the frame says where the object is.
+std::string FieldThatPlaces(const Frame& frame, ObjectId id) {
+  for (std::size_t i = 0; i < frame.motions.size(); ++i) {
+    if (frame.motions[i].id == id) return absl::StrCat("motions[", i, "].world_motion");
+  }
+  for (std::size_t i = 0; i < frame.poses.size(); ++i) {
+    if (frame.poses[i].id == id) return absl::StrCat("poses[", i, "].world_from_box");
+  }
+  return "labels";
+}
+
 absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
-                          const FrameLimits& limits) {
+                          const Frame& frame, const FrameLimits& limits) {
   if (objects.size() > limits.max_objects) {
     return absl::ResourceExhaustedError(absl::StrCat("labels: the scene would hold ",
                                                      objects.size(), " objects; the limit is ",
@@ -44,9 +56,9 @@ absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingO
   for (const auto& [id, object] : objects) {
     const double reach_m = object->history.back().T_W_O.translation.cwiseAbs().maxCoeff();
     if (reach_m <= limits.max_coordinate_m) continue;
-    return absl::InvalidArgumentError(absl::StrCat("motions: object ", id, " would be at ", reach_m,
-                                                   " m; the limit is ", limits.max_coordinate_m,
-                                                   " m"));
+    return absl::InvalidArgumentError(absl::StrCat(FieldThatPlaces(frame, id), ": object ", id,
+                                                   " would be at ", reach_m, " m; the limit is ",
+                                                   limits.max_coordinate_m, " m"));
   }
   return absl::OkStatus();
 }
@@ -83,7 +95,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     report.objects_created += object.has_value() && known == objects.end();
     if (object) objects[id] = std::make_shared<const MovingObject>(std::move(*object));
   }
-  if (absl::Status status = CheckObjects(objects, limits_); !status.ok()) return status;
+  if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.objects.clear();

@@ -8,6 +8,7 @@
 #include "collision/brute_force.h"
 #include "collision/random_world.h"
 #include "collision/tally.h"
+#include "collision/test_world.h"
 
 namespace clearway {
 namespace {
@@ -61,6 +62,15 @@ TEST(SceneCheckerTest, AgreesWithBruteForceForManyLinks) {
                            "seed " + std::to_string(seed));
   }
   ExpectEveryAnswerOccurred(tally);
+}
+
+// A state of 80 million voxels would take many seconds.
+TEST(SceneCheckerTest, EndsSoonOnceItIsCancelled) {
+  const SceneChecker dut(TestWorld().Scene(), Robot::SingleShape("huge", Sphere{27}));
+  int looks = 0;
+  const auto reply = dut.Check({{kTestStart}, {Pose{}}}, {}, [&] { return ++looks > 50; });
+  EXPECT_TRUE(absl::IsCancelled(reply.status())) << reply.status();
+  EXPECT_LT(looks, 60);
 }
 
 }  // namespace

@@ -125,6 +125,23 @@ TEST(TrapsTest, AWorldDeclaredFreeHasAClearance) {
   EXPECT_EQ(reply.answers[0].clearance_m, 1e5);
 }
 
+// Nor may it look at every block where the boxes that declare it free touch.
+TEST(TrapsTest, AWorldDeclaredFreeInPartsHasAClearance) {
+  CheckOptions options;
+  options.clearance_up_to_m = 1e5;
+  options.known_free_W = {Aabb{{-1e6, -1e6, -1e6}, {0.43, 1e6, 1e6}},
+                          Aabb{{0.43, -1e6, 0.21}, {1e6, 1e6, 1e6}},
+                          Aabb{{0.43, -1e6, -1e6}, {1e6, 1e6, 0.22}}};
+  const auto reply =
+      Check(TestWorld(), Robot::SingleShape("ball", Sphere{0.1}), At(0, 0, 0), options);
+  EXPECT_EQ(reply.answers[0].status, SpaceStatus::kFree);
+  EXPECT_EQ(reply.answers[0].clearance_m, 1e5);
+  options.known_free_W[2].max.z() = 0.04;  // leaves a gap with voxels in it
+  const auto with_gap =
+      Check(TestWorld(), Robot::SingleShape("ball", Sphere{0.1}), At(0, 0, 0), options);
+  EXPECT_LT(*with_gap.answers[0].clearance_m, 1);
+}
+
 TEST(TrapsTest, AnExceptionOfLibccdMeansContact) {
   EXPECT_EQ(ContactIfThrown([]() -> double { throw std::logic_error("libccd gave up"); }), 0);
   EXPECT_EQ(ContactIfThrown([] { return 1.5; }), 1.5);

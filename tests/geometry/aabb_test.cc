@@ -45,5 +45,18 @@ TEST(Aabb, TransformedHoldsEveryCornerAndTouchesThem) {
   }
 }
 
+TEST(Aabb, ClipLeavesThePartOfALineInside) {
+  const Aabb box{{0, 0, 0}, {1, 2, 3}};
+  const LinePart through = Clip(box, {-1, 1, 1}, {0.5, 0, 0}, {0, 10});
+  EXPECT_EQ(through.begin, 2);
+  EXPECT_EQ(through.end, 4);
+  EXPECT_EQ(Clip(box, {-1, 1, 1}, {0.5, 0, 0}, {0, 3}).end, 3);
+  EXPECT_EQ(Clip(box, {0.5, 0.5, 0.5}, {0, 0, -1}, {0, 9}).end, 0.5);
+  const LinePart beside = Clip(box, {-1, 2.1, 1}, {1, 0, 0}, {0, 10});
+  EXPECT_GT(beside.begin, beside.end);
+  const LinePart behind = Clip(box, {2, 1, 1}, {1, 0.1, 0}, {0, 10});
+  EXPECT_GT(behind.begin, behind.end);
+}
+
 }  // namespace
 }  // namespace clearway

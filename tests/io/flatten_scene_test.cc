@@ -122,6 +122,11 @@ TEST(FlattenScene, RefusesMoreVoxelsThanTheLimit) {
   EXPECT_EQ(dut.status().code(), absl::StatusCode::kResourceExhausted);
 }
 
+TEST(FlattenScene, EndsOnceItIsCancelled) {
+  const auto dut = FlattenScene(SceneAtTime(*MovingBox(), At(0)), 1 << 28, [] { return true; });
+  EXPECT_TRUE(absl::IsCancelled(dut.status())) << dut.status();
+}
+
 TEST(FlattenScene, GoesIntoFiles) {
   TemporaryFolder folder;
   const ScenePtr scene = MovingBox();

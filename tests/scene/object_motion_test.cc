@@ -188,6 +188,67 @@ TEST_F(ObjectMotionTest, OutOfReachOfPredictionTheModelBeginsAnew) {
   EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 9, 1e-5);
 }
 
+// A motion tells where O is only from a pose that is known.
+TEST_F(ObjectMotionTest, AMotionFromOutOfReachBeginsAnewOrIsIgnored) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(1);
+  SceneBuilder dut = Builder(params);
+  ObjectAfter(dut, Seen(0, Pose::Translation(4, 0, 0)));
+  const auto moved = [](double seconds, double x_m) {
+    Frame frame = Seen(seconds, Pose::Translation(x_m, 0, 0));
+    frame.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(seconds - 0.1)});
+    return frame;
+  };
+  ObjectAfter(dut, moved(0.1, 4.1));
+  Frame unseen = FrameAt(3);
+  unseen.motions = moved(3, 0).motions;
+  const auto report = dut.Apply(unseen);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->motions_ignored, 1u);
+  EXPECT_EQ(dut.Publish()->FindObject(5)->t_k(), At(0.1));
+  const MovingObject& object = ObjectAfter(dut, moved(4, 9));
+  EXPECT_EQ(object.first_seen, At(4));
+  EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 9, 1e-5);
+  EXPECT_LT(object.solid->box_O.Size().x(), 1.3);
+}
+
+TEST_F(ObjectMotionTest, APoseOutOfReachBeginsAnewUnlessItsBoxIsKnown) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(1);
+  for (bool box_is_known : {false, true}) {
+    SceneBuilder dut = Builder(params);
+    Frame first = Seen(0, Pose::Translation(4, 0, 0));
+    Frame moved = Seen(0.1, Pose::Translation(4.1, 0, 0));
+    if (box_is_known) {
+      first.poses = {{5, Pose::Translation(4, 0, 0)}};
+      moved.poses = {{5, Pose::Translation(4.1, 0, 0)}};
+    } else {
+      moved.motions = {{5, Pose::Translation(0.1, 0, 0), At(0)}};
+    }
+    ObjectAfter(dut, first);
+    ObjectAfter(dut, moved);
+    Frame back = Seen(4, Pose::Translation(9, 0, 0));
+    back.poses = {{5, Pose::Translation(9, 0, 0)}};
+    const MovingObject& object = ObjectAfter(dut, back);
+    EXPECT_EQ(object.first_seen, box_is_known ? At(0) : At(4));
+    EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 9, 1e-5);
+  }
+}
+
+// A detector's box may flip from one frame to the next.
+TEST_F(ObjectMotionTest, OfHalfATurnBetweenPosesTheTranslationCounts) {
+  SceneBuilder dut = Builder();
+  Frame first = Seen(0, Pose::Translation(4, 0, 0));
+  first.poses = {{5, Pose::Translation(4, 0, 0)}};
+  ObjectAfter(dut, first);
+  const Pose flipped{Eigen::Quaterniond(0, 0, 0, 1), {4.1, 0, 0}};
+  Frame second = Seen(0.1, flipped);
+  second.poses = {{5, flipped}};
+  const MovingObject& object = ObjectAfter(dut, second);
+  EXPECT_NEAR(object.SpeedMps(), 1, 1e-4);
+  EXPECT_EQ(object.velocity_O->angular.norm(), 0);
+}
+
 TEST_F(ObjectMotionTest, HistoryIsBounded) {
   SceneParams params;
   params.history = std::chrono::seconds(1);

@@ -191,8 +191,22 @@ TEST_F(SceneBuilderTest, RefusesAnObjectThatLeavesTheLimits) {
   frame = FrameAt(1);
   frame.motions.push_back({3, Pose::Translation(150, 0, 0), At(0)});
   const std::string hash = dut.Publish()->Hash();
-  EXPECT_EQ(dut.Apply(frame).status().code(), absl::StatusCode::kInvalidArgument);
+  const absl::Status status = dut.Apply(frame).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(status.message()), testing::StartsWith("motions[0].world_motion"));
   EXPECT_EQ(dut.Publish()->Hash(), hash);
+}
+
+TEST_F(SceneBuilderTest, RefusesAPoseThatPutsAnObjectBeyondTheLimits) {
+  SceneBuilder dut = Builder({}, {.max_coordinate_m = 100});
+  Frame frame = FrameAt(0);
+  AddPoint(frame, 3, {1, 0, 0});
+  frame.poses = {{3, Pose::Translation(-50, 0, 0)}};  // 51 m from the object
+  ASSERT_TRUE(dut.Apply(frame).ok());
+  frame = FrameAt(1);
+  frame.poses = {{3, Pose::Translation(90, 0, 0)}};
+  const absl::Status status = dut.Apply(frame).status();
+  EXPECT_THAT(std::string(status.message()), testing::StartsWith("poses[0].world_from_box"));
 }
 
 TEST_F(SceneBuilderTest, TheSameScenesWithAnyNumberOfThreads) {

@@ -71,7 +71,7 @@ TEST_F(BadInput, Frames) {
        [](auto& f) {
          f.mutable_motions(0)->mutable_world_motion()->mutable_translation_m()->set_x(1.5e5);
        },
-       Code::kInvalidArgument, "frame.motions"},
+       Code::kInvalidArgument, "frame.motions[0].world_motion"},
       {"no motion", [](auto& f) { f.mutable_motions(0)->clear_world_motion(); },
        Code::kInvalidArgument, "frame.motions[0].world_motion"},
   };
@@ -162,6 +162,29 @@ TEST_F(BadInput, BytesInAStreamThatAreNoMessage) {
       Expect(Explain(status), absl::StatusCode::kInvalidArgument, "request");
     }
   }
+}
+
+// An accepted frame's name stays with its answer; what was never accepted leaves its name free.
+TEST_F(BadInput, ARepeatGetsTheFirstAnswerWhateverElseItHolds) {
+  v1::PushFrameRequest request;
+  *request.mutable_frame() = ProtoOf(testing_support::FrameAt(10));
+  request.mutable_frame()->add_labels(-3);  // without a point
+  v1::PushFrameResponse first, again;
+  const auto push = [&](v1::PushFrameResponse* response) {
+    return Call(*ingest_, &v1::IngestService::Stub::PushFrame, request, response);
+  };
+  // The frame that SetUp pushed had the same name.
+  ASSERT_TRUE(push(&first).ok());
+  EXPECT_TRUE(first.repeated_answer());
+  EXPECT_EQ(first.reached(), v1::ACK_LEVEL_APPLIED);
+  request.set_wait_for(v1::ACK_LEVEL_ACCEPTED);
+  ASSERT_TRUE(push(&again).ok());
+  EXPECT_EQ(again.reached(), v1::ACK_LEVEL_APPLIED);
+  EXPECT_EQ(again.scene().version(), first.scene().version());
+  EXPECT_EQ(again.report().points_used(), first.report().points_used());
+  request.mutable_frame()->set_sequence(4711);  // malformed under a new name
+  EXPECT_TRUE(absl::IsInvalidArgument(push(&again)));
+  EXPECT_FALSE(server_.core().ingestor.Find(request.frame().sensor_id(), 4711).has_value());
 }
 
 TEST_F(BadInput, RefusedFramesAreCounted) {

@@ -128,6 +128,7 @@ TEST(ServerConfig, RefusesAFileThatIsNotToml) {
   EXPECT_NE(Refusal({"--config", folder.Write("c.toml", "a = [").string()}).find("c.toml"),
             std::string::npos);
   EXPECT_FALSE(Refusal({"--config", (folder / "missing.toml").string()}).empty());
+  EXPECT_FALSE(Refusal({"--config", (folder / "").string()}).empty());
 }
 
 TEST(ServerConfig, AddressesThatOthersReachNeedTls) {

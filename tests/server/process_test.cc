@@ -168,8 +168,12 @@ TEST(ServerProcess, DrainsWithClientsConnected) {
 TEST(ServerProcess, ListensOnAUnixSocket) {
   const TemporaryFolder folder;
   Process dut({"--listen", "unix:" + (folder / "socket").string()});
-  const auto connection = Connection::Open(dut.Address());
+  const std::string address = dut.Address();
+  const auto connection = Connection::Open(address);
   ASSERT_TRUE(connection.ok()) << connection.status();
+  EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+  Process second({"--listen", address});
+  EXPECT_EQ(second.Wait(), 1);
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
 }
 

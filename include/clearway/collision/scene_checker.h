@@ -1,6 +1,7 @@
 // The state checker over a scene in this process.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "clearway/collision/state_checker.h"
@@ -17,6 +18,10 @@ class SceneChecker : public StateChecker {
 
   absl::StatusOr<CheckReply> Check(const StateBatch& states,
                                    const CheckOptions& options) const override;
+  // The same, but looks at `cancelled` every so often, within a state too, and ends with CANCELLED
+  // soon after it has become true. It must then stay true.
+  absl::StatusOr<CheckReply> Check(const StateBatch& states, const CheckOptions& options,
+                                   const std::function<bool()>& cancelled) const;
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;

@@ -40,4 +40,11 @@ struct Aabb {
 // The smallest box in A that holds `box_B`. An empty box stays empty.
 Aabb Transformed(const Pose& T_A_B, const Aabb& box_B);
 
+// The part of [begin, end] in which origin + s * direction lies in the box; empty if begin > end.
+struct LinePart {
+  double begin, end;
+};
+LinePart Clip(const Aabb& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+              LinePart part);
+
 }  // namespace clearway

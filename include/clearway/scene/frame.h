@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ struct Frame {
   std::vector<ObjectMotion> motions;  // at most one of motion and pose per object
   std::vector<ObjectPose> poses;
 };
+
+// Turns beyond this have no direction that one could trust.
+inline constexpr double kMaxTurn_rad = 0.9 * std::numbers::pi;
 
 // Bounds on what a frame may hold.
 struct FrameLimits {

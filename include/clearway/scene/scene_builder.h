@@ -18,7 +18,7 @@ struct FrameReport {
   std::size_t points_not_finite = 0;
   std::size_t points_self = 0;  // on the robot's own body
   std::size_t points_out_of_bounds = 0;
-  std::size_t motions_ignored = 0;  // for objects that are not known
+  std::size_t motions_ignored = 0;  // for objects whose place is not known
   std::size_t objects_created = 0;
   std::size_t objects_dropped = 0;
 };
