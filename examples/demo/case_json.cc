@@ -47,6 +47,7 @@ Json JsonOf(const CaseResult& result) {
   json["conclusion"] = result.Conclusion();
   json["void_places"] = result.void_places;
   if (!result.crossing) return json;
+  json["before_blocker_itself"] = result.straight.touched == result.crossing->blocker;
   const Time now = result.crossing->now;
   json["crossing"] = CrossingOf(*result.crossing);
   json["straight"] = VerdictOf(result.straight, now);

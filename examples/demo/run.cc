@@ -150,6 +150,10 @@ class Demo {
         out_ << absl::StrFormat("  crossing shifted by %+.1f m along the object's path\n",
                                 crossing.shift_m);
       }
+      if (result.straight.touched != crossing.blocker) {
+        out_ << absl::StrFormat("  no place before object %d itself: this one is before object %d\n",
+                                crossing.blocker, result.straight.touched);
+      }
       out_ << absl::StrFormat("  straight at %g m/s: touches object %d after %.2f s\n",
                               crossing.max_speed_mps, result.straight.touched,
                               ToSeconds(*result.straight.contact - crossing.now));
