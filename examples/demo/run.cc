@@ -151,8 +151,9 @@ class Demo {
                                 crossing.shift_m);
       }
       if (result.straight.touched != crossing.blocker) {
-        out_ << absl::StrFormat("  no place before object %d itself: this one is before object %d\n",
-                                crossing.blocker, result.straight.touched);
+        out_ << absl::StrFormat(
+            "  no place before object %d itself: this one is before object %d\n", crossing.blocker,
+            result.straight.touched);
       }
       out_ << absl::StrFormat("  straight at %g m/s: touches object %d after %.2f s\n",
                               crossing.max_speed_mps, result.straight.touched,
