@@ -16,8 +16,7 @@ int main() {
   const auto file = SerializeOctomap(VoxelMap(0.1), OctomapFormat::kBinary);
   if (!file.ok() || file->rfind("# Octomap", 0) != 0) return 1;
   const auto space = std::make_shared<ompl::base::RealVectorStateSpace>(2);
-  const auto nobody =
-      Connection::Open("127.0.0.1:1", {.retry_for = std::chrono::milliseconds(1)});
+  const auto nobody = Connection::Open("127.0.0.1:1", {.retry_for = std::chrono::milliseconds(1)});
   if (!absl::IsUnavailable(nobody.status())) return 1;
   const SceneSnapshot empty = SceneSnapshot::Empty(SceneParams{});
   if (WriteTopView(empty, {}, "/nonexistent/x.png").ok()) return 1;
