@@ -1,6 +1,8 @@
 #include "server/handler.h"
 
 #include <chrono>
+#include <cstdint>
+#include <random>
 
 #include "google/protobuf/unknown_field_set.h"
 #include "spdlog/spdlog.h"
@@ -9,6 +11,12 @@ namespace clearway {
 namespace {
 
 constexpr int kMarkField = 536'870'911;  // protobuf's highest; no message of ours has it
+
+// Of this process, so that no client can know it.
+std::uint64_t MarkValue() {
+  static const std::uint64_t value = std::random_device()();
+  return value;
+}
 
 }  // namespace
 
@@ -43,12 +51,13 @@ absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& 
 
 void Mark(google::protobuf::Message& message) {
   message.Clear();
-  message.GetReflection()->MutableUnknownFields(&message)->AddVarint(kMarkField, 1);
+  message.GetReflection()->MutableUnknownFields(&message)->AddVarint(kMarkField, MarkValue());
 }
 
 bool IsMarked(const google::protobuf::Message& message) {
   const auto& unknown = message.GetReflection()->GetUnknownFields(message);
-  return unknown.field_count() == 1 && unknown.field(0).number() == kMarkField;
+  return unknown.field_count() == 1 && unknown.field(0).number() == kMarkField &&
+         unknown.field(0).varint() == MarkValue();
 }
 
 absl::Status GarbageError() {

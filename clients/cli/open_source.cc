@@ -75,6 +75,11 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
       ->check(CLI::IsMember({"any", "plain", "icp", "oxts"}).description(""))
       ->capture_default_str()
       ->group("Source");
+  command
+      ->add_flag("--allow-missing-points", flags->allow_missing_points,
+                 "Take frames of a LiDAR folder that have a pose but no\nfile of points as frames "
+                 "without points")
+      ->group("Source");
   AddSimulationFlags(command, flags);
 }
 
@@ -124,7 +129,11 @@ absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlag
       return simulation->Frames();
     }
     case SourceKind::kLidarFolder: {
-      auto folder = OpenFolder(spec, flags, false);
+      auto folder = OpenFolder(spec, flags, flags.allow_missing_points);
+      if (absl::IsNotFound(folder.status()) && !flags.allow_missing_points) {
+        return absl::NotFoundError(
+            absl::StrCat(folder.status().message(), " (--allow-missing-points goes on without)"));
+      }
       if (!folder.ok()) return folder.status();
       return folder->frames;
     }

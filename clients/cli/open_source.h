@@ -22,6 +22,7 @@ struct SourceFlags {
   double range_noise_m = 0;
   std::optional<int> beams;
   bool keep_no_return = false;
+  bool allow_missing_points = false;
   // LiDAR folders.
   std::string poses = "any";
   // Both.

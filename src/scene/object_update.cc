@@ -5,9 +5,18 @@
 namespace clearway {
 namespace {
 
-// Of about half a turn nobody knows the direction: then the translation alone counts.
+// Whether the step is nothing but rounding: it moves no point within 10 m of O by more than 1e-8 m.
+// (Coordinates of 100 km are rounded to 1.5e-11 m, and a motion about the world's origin to more.)
+bool IsRounding(const Twist& step) {
+  constexpr double kReach_m = 10, kRounding_m = 1e-8;
+  return step.linear.norm() + kReach_m * step.angular.norm() < kRounding_m;
+}
+
+// Zero for an object that stands still. Of about half a turn nobody knows the direction: then the
+// translation alone counts.
 Twist VelocityBetween(const Pose& T_W_O1, Time t1, const Pose& T_W_O2, Time t2) {
   Twist step = Log(Inverse(T_W_O1) * T_W_O2);
+  if (IsRounding(step)) return {};
   if (step.angular.norm() > kMaxTurn_rad) {
     step = {Eigen::Vector3d::Zero(),
             T_W_O1.rotation.conjugate() * (T_W_O2.translation - T_W_O1.translation)};

@@ -188,6 +188,32 @@ TEST_F(ObjectMotionTest, OutOfReachOfPredictionTheModelBeginsAnew) {
   EXPECT_NEAR(object.history.back().T_W_O.translation.x(), 9, 1e-5);
 }
 
+// Poses are rounded at every step, and motions about a far origin even more.
+TEST_F(ObjectMotionTest, StandingStillIsRestWhateverTheRounding) {
+  Random random(2);
+  for (int run = 0; run < 100; ++run) {
+    SceneBuilder dut = Builder();
+    Pose T_W_B{random.AnyPose(1).rotation, random.Vector(run % 2 == 0 ? 10 : 50'000)};
+    const Pose step = Exp({0.1 * random.UnitVector(), 0.1 * random.UnitVector()});
+    const auto seen_from_near = [](double seconds, const Pose& T_W_seen) {
+      Frame frame = FrameAt(seconds);
+      frame.T_W_S.translation = T_W_seen.translation + Eigen::Vector3d(2, 0, 0);
+      AddObject(frame, 5, T_W_seen, {{0, 0, 0}, {0.3, 0, 0}});
+      return frame;
+    };
+    ObjectAfter(dut, seen_from_near(0, T_W_B));
+    for (int k = 1; k <= 8; ++k) {
+      const Pose next = k <= 5
+                            ? T_W_B * step
+                            : T_W_B * Exp({1e-14 * random.UnitVector(), Eigen::Vector3d::Zero()});
+      Frame frame = seen_from_near(0.1 * k, next);
+      frame.motions = {{5, next * Inverse(T_W_B), At(0.1 * (k - 1))}};
+      EXPECT_EQ(ObjectAfter(dut, frame).AtRest(), k > 5) << "run " << run << ", frame " << k;
+      T_W_B = next;
+    }
+  }
+}
+
 // A motion tells where O is only from a pose that is known.
 TEST_F(ObjectMotionTest, AMotionFromOutOfReachBeginsAnewOrIsIgnored) {
   SceneParams params;

@@ -155,7 +155,7 @@ TEST_F(BadInput, AMessageOfAStreamThatIsTooLarge) {
 TEST_F(BadInput, BytesInAStreamThatAreNoMessage) {
   for (const char* method :
        {"/clearway.v1.IngestService/PushFrames", "/clearway.v1.MapService/LoadPrior"}) {
-    for (const char* bytes : {"\xff\xff\xff\xff\xff", "\x0a"}) {
+    for (const char* bytes : {"\xff\xff\xff\xff\xff", "\x0a", "\xf8\xff\xff\xff\x0f\x01\x0a\x05"}) {
       const grpc::Slice garbage(bytes);
       const grpc::Status status =
           testing_support::RawStream(*channel_, method, grpc::ByteBuffer(&garbage, 1));

@@ -51,7 +51,7 @@ struct MovingObject {
   bool bridged = false;  // the last pose is a prediction: points came without a motion
 
   Time t_k() const { return history.back().stamp; }
-  bool AtRest() const;  // no motion known, or none at all
+  bool AtRest() const;  // no motion known, or none but rounding
   double SpeedMps() const { return velocity_O ? velocity_O->linear.norm() : 0.0; }
 };
 

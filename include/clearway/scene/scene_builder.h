@@ -46,7 +46,8 @@ class SceneBuilder {
   // Makes the static map's voxels in the box unknown again.
   void ClearRegion(const Aabb& box_W);
   void SetKeepOut(std::vector<Aabb> boxes_W);
-  // The empty scene again; versions go on counting.
+  // The empty scene again; versions go on counting, and parameters, keep-out zones among them,
+  // stay.
   void Reset();
 
  private:

@@ -28,7 +28,7 @@ struct ServerLimits {
   std::uint64_t max_frames_in_flight = 8;  // of one stream
   std::uint64_t max_queued_frames = 32;
   std::uint64_t max_remembered_answers = 10'000;
-  double max_version_wait_s = 10;
+  double max_version_wait_s = 5;  // below the deadline of clients, which ask for 10 s
   std::uint64_t max_prior_bytes = 1 << 30;
   std::uint64_t max_boxes = 10'000;  // keep-out boxes, declared-free boxes, contacts, ignored ids
   std::uint64_t max_calls = 512;     // at once
