@@ -21,6 +21,16 @@ std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& 
   return clues;
 }
 
+// Whether the object is still the same one in this frame: not unseen for too long, and if it is
+// seen again, then where its frame is known.
+bool Continues(const MovingObject& object, const std::map<ObjectId, ObjectClue>& clues, Time stamp,
+               const SceneParams& params) {
+  if (stamp - object.last_seen > params.object_lifetime) return false;
+  const auto clue = clues.find(object.id);
+  return clue == clues.end() || clue->second.points.empty() ||
+         !OutOfReach(object, clue->second, stamp, params);
+}
+
 // The object after the frame; none for a clue without points to an object of which the place is not
 // known.
 std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, const ObjectClue& clue,
@@ -76,8 +86,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   const LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
   VoxelMap static_map_W = scene_.static_map_W;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
+  const std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
   for (const auto& object : scene_.objects) {
-    if (frame.stamp - object->last_seen <= scene_.params.object_lifetime) {
+    if (Continues(*object, clues, frame.stamp, scene_.params)) {
       objects[object->id] = object;
     } else {
       ForgetFreeSpaceOf(*object, static_map_W);
@@ -86,7 +97,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   }
   static_map_W.Update(
       CastRays(static_map_W.grid(), cloud.Rays(), scene_.params.rays, *pool_));  // II-B, II-C
-  for (const auto& [id, clue] : CluesOf(frame, cloud)) {                         // II-D
+  for (const auto& [id, clue] : clues) {                                         // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =
         Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,

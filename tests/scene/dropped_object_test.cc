@@ -61,6 +61,28 @@ TEST_F(DroppedObjectTest, NewRaysFreeItAgain) {
   EXPECT_EQ(StatusAt({3, 0.001, 0.001}), SpaceStatus::kFree);
 }
 
+TEST_F(DroppedObjectTest, SoIsTheSolidOfOneThatBeginsAnew) {
+  SceneParams params;
+  params.horizon = std::chrono::milliseconds(200);
+  dut_ = std::make_unique<SceneBuilder>(params, FrameLimits{}, pool_);
+  Frame wall = FrameAt(0);
+  for (double y = -1; y <= 1; y += 0.02) {
+    for (double z = -1; z <= 1; z += 0.02) AddPoint(wall, kStaticLabel, {6, y, z});
+  }
+  ASSERT_TRUE(dut_->Apply(wall).ok());
+  Frame object = FrameAt(1);
+  AddObject(object, 3, Pose::Translation(3, 0, 0), BoxSurface({0.6, 0.6, 0.6}, 0.05));
+  object.motions = {{3, Pose::Translation(0, 0.1, 0), At(0.9)}};
+  ASSERT_TRUE(dut_->Apply(object).ok());
+  Frame back = FrameAt(2);
+  AddPoint(back, 3, {0, 4, 0});
+  const auto report = dut_->Apply(back);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->objects_dropped, 1u);
+  EXPECT_EQ(report->objects_created, 1u);
+  EXPECT_EQ(StatusAt({3, 0.01, 0.02}), SpaceStatus::kUnknownSpace);
+}
+
 TEST_F(DroppedObjectTest, ComesBackUnderItsIdAsANewObject) {
   Frame back = FrameAt(10);
   AddPoint(back, 3, {2, 0, 0});

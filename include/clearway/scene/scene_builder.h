@@ -20,7 +20,7 @@ struct FrameReport {
   std::size_t points_out_of_bounds = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   std::size_t objects_created = 0;
-  std::size_t objects_dropped = 0;
+  std::size_t objects_dropped = 0;  // one that begins anew is dropped and created
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at
