@@ -1,8 +1,6 @@
 #include "clearway/map/ray.h"
 
-#include <vector>
-
-#include "absl/container/flat_hash_set.h"
+#include <limits>
 
 namespace clearway {
 namespace {
@@ -10,27 +8,6 @@ namespace {
 // OctoMap's Vector3::norm(): products and sum in float, root in double.
 double Norm(const Eigen::Vector3f& v) {
   return std::sqrt(static_cast<double>(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()));
-}
-
-const Eigen::Vector3f& OriginOf(const RayCloud& cloud, std::size_t i) {
-  return cloud.origins.size() == 1 ? cloud.origins[0] : cloud.origins[i];
-}
-
-// Which rays are walked: all, or with `discretize` the first one into each voxel (first of a
-// clearing and of a returned ray apart).
-std::vector<std::uint32_t> RaysToWalk(const VoxelGrid& grid, const RayCloud& cloud,
-                                      bool discretize) {
-  std::vector<std::uint32_t> rays;
-  rays.reserve(cloud.ends.size());
-  absl::flat_hash_set<VoxelKey> returned, cleared;
-  const bool distinct = discretize && cloud.origins.size() == 1;
-  for (std::size_t i = 0; i < cloud.ends.size(); ++i) {
-    auto& seen = cloud.kinds[i] == RayEnd::kClear ? cleared : returned;
-    if (!distinct || seen.insert(grid.KeyOf(cloud.ends[i].cast<double>())).second) {
-      rays.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  return rays;
 }
 
 }  // namespace
@@ -46,27 +23,30 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
   return {origin + direction * static_cast<float>(options.max_range_m), false};
 }
 
-ScanUpdate CastRays(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options,
-                    ThreadPool& pool) {
-  std::vector<ScanUpdate> updates(pool.threads());
-  pool.ParallelFor(cloud.ends.size(), [&](int worker, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (cloud.kinds[i] == RayEnd::kClear) continue;
-      if (!LimitRay(grid, options, OriginOf(cloud, i), cloud.ends[i]).within_range) continue;
-      const VoxelKey key = grid.KeyOf(cloud.ends[i].cast<double>());
-      cloud.kinds[i] == RayEnd::kHit ? updates[worker].MarkHit(key) : updates[worker].MarkEnd(key);
+// OctoMap mixes single and double precision here; so must we, to round alike.
+RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin,
+                  const Eigen::Vector3f& end) {
+  RayStart ray;
+  ray.key = grid.KeyOf(origin.cast<double>());
+  ray.end = grid.KeyOf(end.cast<double>());
+  const Eigen::Vector3f difference = end - origin;
+  const float length = static_cast<float>(Norm(difference));
+  ray.length_m = length;
+  const double resolution_m = grid.resolution_m();
+  const std::int32_t index[3] = {ray.key.x, ray.key.y, ray.key.z};
+  for (int i = 0; i < 3; ++i) {
+    const float direction = difference[i] / length;
+    ray.step[i] = direction > 0 ? 1 : direction < 0 ? -1 : 0;
+    if (ray.step[i] == 0) {
+      ray.t_max[i] = ray.t_delta[i] = std::numeric_limits<double>::max();
+      continue;
     }
-  });
-  const std::vector<std::uint32_t> rays = RaysToWalk(grid, cloud, options.discretize);
-  pool.ParallelFor(rays.size(), [&](int worker, std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) {
-      const Eigen::Vector3f& origin = OriginOf(cloud, rays[r]);
-      const LimitedRay ray = LimitRay(grid, options, origin, cloud.ends[rays[r]]);
-      WalkRay(grid, origin, ray.end, [&](VoxelKey key) { updates[worker].MarkFree(key); });
-    }
-  });
-  for (int worker = 1; worker < pool.threads(); ++worker) updates[0].Merge(updates[worker]);
-  return std::move(updates[0]);
+    const double border =
+        grid.Center(index[i]) + static_cast<float>(ray.step[i] * resolution_m * 0.5);
+    ray.t_max[i] = (border - origin[i]) / direction;
+    ray.t_delta[i] = resolution_m / std::abs(static_cast<double>(direction));
+  }
+  return ray;
 }
 
 }  // namespace clearway

@@ -4,36 +4,34 @@
 
 namespace clearway {
 
-ScanUpdate::Block& ScanUpdate::BlockFor(VoxelKey key) {
-  const BlockKey block_key = BlockOf(key);
-  if (block_key != last_key_ || blocks_.empty()) {
-    const auto [entry, inserted] = index_.try_emplace(block_key, blocks_.size());
-    if (inserted) blocks_.emplace_back();
-    last_key_ = block_key;
+ScanUpdate::Block& ScanUpdate::BlockFor(BlockKey key) {
+  if (key != last_key_ || blocks_.empty()) {
+    const auto [entry, inserted] = index_.try_emplace(key, blocks_.size());
+    if (inserted) blocks_.push_back({key, {}});
+    last_key_ = key;
     last_ = entry->second;
   }
-  return blocks_[last_];
+  return blocks_[last_].block;
 }
 
 void ScanUpdate::Merge(const ScanUpdate& other) {
-  for (const auto& [key, position] : other.index_) {
-    Block& mine = BlockFor(VoxelAt(key, 0));
-    const Block& theirs = other.blocks_[position];
+  other.ForEach([&](BlockKey key, const Block& theirs) {
+    Block& mine = BlockFor(key);
     mine.free |= theirs.free;
     mine.hit |= theirs.hit;
     mine.end |= theirs.end;
-  }
+  });
 }
 
 const ScanUpdate::Block* ScanUpdate::Find(BlockKey key) const {
   const auto entry = index_.find(key);
-  return entry == index_.end() ? nullptr : &blocks_[entry->second];
+  return entry == index_.end() ? nullptr : &blocks_[entry->second].block;
 }
 
 std::vector<BlockKey> ScanUpdate::SortedKeys() const {
   std::vector<BlockKey> keys;
-  keys.reserve(index_.size());
-  for (const auto& [key, position] : index_) keys.push_back(key);
+  keys.reserve(blocks_.size());
+  for (const Entry& entry : blocks_) keys.push_back(entry.key);
   std::sort(keys.begin(), keys.end());
   return keys;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "map/block_update.h"
+
 namespace clearway {
 namespace {
 
@@ -40,16 +42,12 @@ void VoxelMap::PutBlock(BlockKey key, const VoxelBlock& block) {
 }
 
 void VoxelMap::Update(const ScanUpdate& update) {
-  for (BlockKey key : update.SortedKeys()) {
-    const ScanUpdate::Block& scan = *update.Find(key);
+  update.ForEach([&](BlockKey key, const ScanUpdate::Block& scan) {
     const VoxelBlock* before = blocks_.Find(key);
     VoxelBlock block = before == nullptr ? kEmptyBlock : *before;
-    BlockMask misses = scan.free;
-    misses.Subtract(scan.end);
-    misses.ForEach([&](int i) { block.Set(i, model_.AfterMiss(block.log_odds[i]), model_); });
-    scan.hit.ForEach([&](int i) { block.Set(i, model_.AfterHit(block.log_odds[i]), model_); });
+    ApplyScan(scan, model_, block);
     PutBlock(key, block);
-  }
+  });
 }
 
 void VoxelMap::Set(VoxelKey key, LogOdds value) {

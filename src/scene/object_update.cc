@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "clearway/map/ray_caster.h"
+
 namespace clearway {
 namespace {
 
@@ -155,7 +157,8 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
   ScanUpdate update;
   if (params.clear_objects_by_rays) {
     const ClippedRays rays = RaysNear(object, cloud, points, params);
-    update = CastRays(map_O.grid(), {rays.ends_O, rays.kinds, rays.origins_O}, RayOptions{}, pool);
+    update =
+        RayCaster(pool).Cast(map_O.grid(), {rays.ends_O, rays.kinds, rays.origins_O}, RayOptions{});
   }
   for (std::uint32_t i : points) {
     const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();

@@ -76,7 +76,7 @@ absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingO
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
-    : scene_(SceneSnapshot::Empty(params)), limits_(limits), pool_(&pool) {}
+    : scene_(SceneSnapshot::Empty(params)), limits_(limits), pool_(&pool), caster_(pool) {}
 
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
@@ -96,8 +96,8 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     }
   }
   static_map_W.Update(
-      CastRays(static_map_W.grid(), cloud.Rays(), scene_.params.rays, *pool_));  // II-B, II-C
-  for (const auto& [id, clue] : clues) {                                         // II-D
+      caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays));  // II-B, II-C
+  for (const auto& [id, clue] : clues) {                                     // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =
         Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,

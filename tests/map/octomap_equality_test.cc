@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
-#include "clearway/map/ray.h"
+#include "clearway/map/ray_caster.h"
 #include "clearway/map/voxel_map.h"
 #include "support/octomap_oracle.h"
 #include "support/random.h"
@@ -36,6 +36,7 @@ TEST_P(OctomapEqualityTest, SameVoxelsOverManyScans) {
   const Case& c = GetParam();
   Random random(7);
   ThreadPool pool(c.threads);
+  RayCaster caster(pool);
   VoxelMap dut(c.resolution_m);
   octomap::OcTree oracle(c.resolution_m);
   for (int scan = 0; scan < 8; ++scan) {
@@ -44,7 +45,7 @@ TEST_P(OctomapEqualityTest, SameVoxelsOverManyScans) {
     const auto points = RandomCloud(random, 1500);
     const std::vector<RayEnd> kinds(points.size(), RayEnd::kHit);
     dut.Update(
-        CastRays(dut.grid(), {points, kinds, {&origin, 1}}, {c.max_range_m, c.discretize}, pool));
+        caster.Cast(dut.grid(), {points, kinds, {&origin, 1}}, {c.max_range_m, c.discretize}));
     oracle.insertPointCloud(testing_support::ToOctomap(points), testing_support::ToOctomap(origin),
                             c.max_range_m, false, c.discretize);
   }

@@ -20,24 +20,36 @@ class ScanUpdate {
     BlockMask end;   // any ray ended here: traversal does not count as free
   };
 
-  void MarkFree(VoxelKey key) { BlockFor(key).free.Set(IndexInBlock(key)); }
+  void MarkFree(BlockKey key, const BlockMask& mask) { BlockFor(key).free |= mask; }
+  void MarkFree(VoxelKey key) { BlockFor(BlockOf(key)).free.Set(IndexInBlock(key)); }
   void MarkHit(VoxelKey key) {
-    Block& block = BlockFor(key);
+    Block& block = BlockFor(BlockOf(key));
     block.hit.Set(IndexInBlock(key));
     block.end.Set(IndexInBlock(key));
   }
-  void MarkEnd(VoxelKey key) { BlockFor(key).end.Set(IndexInBlock(key)); }
+  void MarkEnd(VoxelKey key) { BlockFor(BlockOf(key)).end.Set(IndexInBlock(key)); }
 
   void Merge(const ScanUpdate& other);
   bool Empty() const { return blocks_.empty(); }
   const Block* Find(BlockKey key) const;
+  std::size_t size() const { return blocks_.size(); }
   std::vector<BlockKey> SortedKeys() const;
+  // Calls visit(BlockKey, const Block&) for each block, in the order in which they were marked
+  // first.
+  template <class Visit>
+  void ForEach(Visit&& visit) const {
+    for (const Entry& entry : blocks_) visit(entry.key, entry.block);
+  }
 
  private:
-  Block& BlockFor(VoxelKey key);
+  Block& BlockFor(BlockKey key);
 
+  struct Entry {
+    BlockKey key;
+    Block block;
+  };
   absl::flat_hash_map<BlockKey, std::size_t> index_;
-  std::vector<Block> blocks_;
+  std::vector<Entry> blocks_;
   BlockKey last_key_;  // the block written last; rays stay in one block for several steps
   std::size_t last_ = 0;
 };

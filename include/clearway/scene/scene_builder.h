@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "clearway/base/thread_pool.h"
+#include "clearway/map/ray_caster.h"
 #include "clearway/scene/frame.h"
 #include "clearway/scene/scene_snapshot.h"
 
@@ -56,6 +57,7 @@ class SceneBuilder {
   SceneSnapshot scene_;  // its version is the one published last
   FrameLimits limits_;
   ThreadPool* pool_;
+  RayCaster caster_;
   ScenePtr published_;
   bool has_frames_ = false;
   bool changed_ = true;  // since published_

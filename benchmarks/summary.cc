@@ -1,0 +1,85 @@
+#include "summary.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace clearway::bench {
+namespace {
+
+// Prints as usual and keeps the medians.
+class MedianReporter : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      failed |= run.error_occurred;
+      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
+      medians[run.run_name.function_name] =
+          run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+    }
+  }
+
+  Medians medians;
+  bool failed = false;
+};
+
+struct Flags {
+  Effort effort;
+  std::filesystem::path out = std::filesystem::path(CLEARWAY_SOURCE_DIR) / "benchmarks" / "out";
+};
+
+// Takes our flags out of the arguments.
+Flags TakeFlags(int& argc, char** argv) {
+  Flags flags;
+  int kept = 1;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--quick") == 0) {
+      flags.effort.quick = true;
+    } else if (std::strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
+      flags.out = argv[++i];
+    } else {
+      argv[kept++] = argv[i];
+    }
+  }
+  argc = kept;
+  return flags;
+}
+
+void AddToSummary(const std::filesystem::path& folder, const nlohmann::json& numbers) {
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / "summary.json";
+  nlohmann::json summary = nlohmann::json::object();
+  if (std::ifstream before(file); before) summary = nlohmann::json::parse(before, nullptr, false);
+  if (!summary.is_object()) summary = nlohmann::json::object();
+  summary.update(numbers);
+  std::ofstream(file) << summary.dump(2) << "\n";
+}
+
+}  // namespace
+
+int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
+         const std::vector<Ratio>& ratios) {
+  const Flags flags = TakeFlags(argc, argv);
+  register_all(flags.effort);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  MedianReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  nlohmann::json numbers = nlohmann::json::object();
+  for (const Ratio& ratio : ratios) {
+    const auto over = reporter.medians.find(ratio.over);
+    const auto under = reporter.medians.find(ratio.under);
+    if (over == reporter.medians.end() || under == reporter.medians.end()) continue;
+    numbers[ratio.name] = over->second / under->second;
+    std::printf("%-40s %10.2f\n", ratio.name.c_str(), over->second / under->second);
+  }
+  AddToSummary(flags.out, numbers);
+  return reporter.failed ? 1 : 0;
+}
+
+}  // namespace clearway::bench

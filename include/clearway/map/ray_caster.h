@@ -1,0 +1,30 @@
+// The update that a cloud of rays makes.
+#pragma once
+
+#include <memory>
+
+#include "clearway/base/thread_pool.h"
+#include "clearway/map/ray.h"
+#include "clearway/map/scan_update.h"
+
+namespace clearway {
+
+// Casts clouds, one after the other; keeps its memory from one to the next. One thread at a time.
+class RayCaster {
+ public:
+  // `pool` must outlive the caster.
+  explicit RayCaster(ThreadPool& pool);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+  RayCaster& operator=(RayCaster&&) noexcept;
+
+  // The update of a map by a cloud: the same voxels as OctoMap's computeUpdate makes of it,
+  // whatever the number of threads. All points must be addressable in the grid.
+  ScanUpdate Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clearway

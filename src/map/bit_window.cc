@@ -1,0 +1,75 @@
+#include "map/bit_window.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+constexpr std::int64_t kMostBits = std::int64_t{1} << 29;  // 64 MB
+
+BlockKey SizeOf(BlockKey first, BlockKey last, int multiple_x) {
+  const std::int32_t x = last.x - first.x + 1;
+  return {(x + multiple_x - 1) / multiple_x * multiple_x, last.y - first.y + 1,
+          last.z - first.z + 1};
+}
+
+}  // namespace
+
+bool BitWindow::Fits(BlockKey first, BlockKey last) {
+  const BlockKey size = SizeOf(first, last, kBlocksPerWord);
+  const std::int64_t most_blocks = kMostBits / kVoxelsPerBlock;
+  return std::int64_t{size.x} * size.y <= most_blocks &&
+         std::int64_t{size.x} * size.y * size.z <= most_blocks;
+}
+
+void BitWindow::Cover(BlockKey first, BlockKey last) {
+  first_ = first;
+  size_ = SizeOf(first, last, kBlocksPerWord);
+  low_ = VoxelAt(first, 0);
+  strides_ = {1, size_.x * kBlockSize, size_.x * kBlockSize * size_.y * kBlockSize};
+  words_.resize(rows() * size_.x * kVoxelsPerBlock / 32);
+}
+
+// The words of a line of voxels along x: line y + 8 z of the row's 64.
+std::uint32_t* BitWindow::Row(std::size_t row, int line) {
+  const std::int64_t y = static_cast<std::int64_t>(row) % size_.y * kBlockSize + line % kBlockSize;
+  const std::int64_t z = static_cast<std::int64_t>(row) / size_.y * kBlockSize + line / kBlockSize;
+  return words_.data() + (strides_[1] * y + strides_[2] * z) / 32;
+}
+
+void BitWindow::TakeRow(std::span<BitWindow> windows, std::size_t row, std::vector<Block>& blocks) {
+  constexpr int kLines = kBlockSize * kBlockSize;
+  const BlockKey size = windows[0].size_;
+  const std::size_t words = size.x / kBlocksPerWord;
+  std::vector<std::uint32_t> any(words);
+  for (BitWindow& window : windows) {
+    for (int line = 0; line < kLines; ++line) {
+      const std::uint32_t* source = window.Row(row, line);
+      for (std::size_t w = 0; w < words; ++w) any[w] |= source[w];
+    }
+  }
+  const BlockKey first = windows[0].first_;
+  const BlockKey row_key{first.x, first.y + static_cast<std::int32_t>(row % size.y),
+                         first.z + static_cast<std::int32_t>(row / size.y)};
+  for (std::size_t w = 0; w < words; ++w) {
+    if (any[w] == 0) continue;
+    std::array<BlockMask, kBlocksPerWord> masks{};
+    for (BitWindow& window : windows) {
+      for (int line = 0; line < kLines; ++line) {
+        std::uint32_t& word = window.Row(row, line)[w];
+        for (int b = 0; b < kBlocksPerWord; ++b) {
+          masks[b].words[line / kBlockSize] |= std::uint64_t{word >> 8 * b & 0xff}
+                                               << line % kBlockSize * kBlockSize;
+        }
+        word = 0;
+      }
+    }
+    for (int b = 0; b < kBlocksPerWord; ++b) {
+      if ((any[w] >> 8 * b & 0xff) == 0) continue;
+      const auto x = row_key.x + static_cast<std::int32_t>(w) * kBlocksPerWord + b;
+      blocks.push_back({{x, row_key.y, row_key.z}, masks[b]});
+    }
+  }
+}
+
+}  // namespace clearway

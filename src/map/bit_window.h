@@ -1,0 +1,57 @@
+// A part of the grid as a dense array of bits.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "clearway/map/voxel_block.h"
+#include "clearway/map/voxel_key.h"
+
+namespace clearway {
+
+// One bit for each voxel of a box of blocks, x fastest, so that a step to a neighbouring voxel is
+// one addition to the index of the bit. One thread at a time, but where said otherwise.
+class BitWindow {
+ public:
+  // Whether a window from block `first` to block `last` is small enough to be worth its memory.
+  static bool Fits(BlockKey first, BlockKey last);
+
+  // Takes the blocks [first, last], which must fit. All bits are clear; memory is kept from before.
+  void Cover(BlockKey first, BlockKey last);
+
+  std::int32_t IndexOf(VoxelKey key) const {
+    return key.x - low_.x + strides_[1] * (key.y - low_.y) + strides_[2] * (key.z - low_.z);
+  }
+  // What a step along x, y and z adds to an index.
+  const std::array<std::int32_t, 3>& strides() const { return strides_; }
+  // Bit i is bit i % 32 of word i / 32.
+  std::uint32_t* words() { return words_.data(); }
+
+  bool Test(VoxelKey key) const { return words_[IndexOf(key) >> 5] >> (IndexOf(key) & 31) & 1; }
+  void Set(VoxelKey key) { words_[IndexOf(key) >> 5] |= std::uint32_t{1} << (IndexOf(key) & 31); }
+
+  // Rows of blocks along x.
+  std::size_t rows() const { return static_cast<std::size_t>(size_.y) * size_.z; }
+  // The blocks of row `row` in which a bit is set in any of the windows, which must cover the same
+  // blocks; clears them. Threads may take different rows at once.
+  struct Block {
+    BlockKey key;
+    BlockMask mask;
+  };
+  static void TakeRow(std::span<BitWindow> windows, std::size_t row, std::vector<Block>& blocks);
+
+ private:
+  static constexpr int kBlocksPerWord = 32 / kBlockSize;
+
+  std::uint32_t* Row(std::size_t row, int line);
+
+  BlockKey first_;
+  BlockKey size_;  // in blocks; along x a multiple of kBlocksPerWord
+  VoxelKey low_;
+  std::array<std::int32_t, 3> strides_{};
+  std::vector<std::uint32_t> words_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,72 @@
+#include "map/bit_window.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+std::map<BlockKey, std::set<int>> TakeAll(std::span<BitWindow> windows) {
+  std::vector<BitWindow::Block> blocks;
+  for (std::size_t row = 0; row < windows[0].rows(); ++row) {
+    BitWindow::TakeRow(windows, row, blocks);
+  }
+  std::map<BlockKey, std::set<int>> taken;
+  for (const BitWindow::Block& block : blocks) {
+    EXPECT_TRUE(block.mask.Any());
+    block.mask.ForEach([&](int i) { taken[block.key].insert(i); });
+  }
+  return taken;
+}
+
+TEST(BitWindow, Empty) {
+  std::vector<BitWindow> dut(1);
+  dut[0].Cover({-1, 0, 3}, {4, 2, 3});
+  EXPECT_TRUE(TakeAll(dut).empty());
+}
+
+TEST(BitWindow, StridesLeadToTheNeighbours) {
+  BitWindow dut;
+  dut.Cover({-3, -2, -1}, {4, 5, 6});
+  const VoxelKey key{-5, 7, 11};
+  EXPECT_EQ(dut.IndexOf({-4, 7, 11}) - dut.IndexOf(key), dut.strides()[0]);
+  EXPECT_EQ(dut.IndexOf({-5, 8, 11}) - dut.IndexOf(key), dut.strides()[1]);
+  EXPECT_EQ(dut.IndexOf({-5, 7, 12}) - dut.IndexOf(key), dut.strides()[2]);
+}
+
+TEST(BitWindow, GivesTheUnionBlockByBlockAndIsThenClear) {
+  const BlockKey first{-3, -1, 2}, last{6, 2, 4};
+  std::vector<BitWindow> dut(2);
+  Random random(1);
+  for (int round = 0; round < 3; ++round) {
+    std::map<BlockKey, std::set<int>> expected;
+    for (BitWindow& window : dut) {
+      window.Cover(first, last);
+      for (int i = 0; i < 200; ++i) {
+        const VoxelKey key{random.Integer(8 * first.x, 8 * last.x + 7),
+                           random.Integer(8 * first.y, 8 * last.y + 7),
+                           random.Integer(8 * first.z, 8 * last.z + 7)};
+        window.Set(key);
+        expected[BlockOf(key)].insert(IndexInBlock(key));
+      }
+    }
+    EXPECT_EQ(TakeAll(dut), expected);
+    EXPECT_TRUE(TakeAll(dut).empty());
+  }
+}
+
+TEST(BitWindow, DoesNotFitTheWholeWorld) {
+  EXPECT_TRUE(BitWindow::Fits({-70, -70, -10}, {70, 70, 10}));
+  constexpr std::int32_t kFar = kMaxVoxelIndex / kBlockSize;
+  EXPECT_FALSE(BitWindow::Fits({-kFar, -kFar, -kFar}, {kFar, kFar, kFar}));
+  EXPECT_FALSE(BitWindow::Fits({-kFar, 0, 0}, {kFar, kFar, 0}));
+}
+
+}  // namespace
+}  // namespace clearway

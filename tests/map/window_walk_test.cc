@@ -1,0 +1,100 @@
+#include "map/window_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "clearway/map/ray.h"
+#include "map/bit_window.h"
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+constexpr double kResolution_m = 0.1;
+const BlockKey kFirst{-16, -16, -16}, kLast{15, 15, 15};  // 12.8 m to each side
+
+struct Case {
+  const char* name;
+  WindowWalk walk;
+  bool (*available)();
+};
+
+class WindowWalkTest : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    if (!GetParam().available()) GTEST_SKIP() << "not on this processor";
+    window_.Cover(kFirst, kLast);
+  }
+  void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
+    WalkRay(grid_, origin, end, [&](VoxelKey key) { expected_.insert(key); });
+    const RayStart start = StartRay(grid_, origin, end);
+    if (start.key == start.end) return;
+    WindowRay ray{};
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.t_max[axis] = start.t_max[axis];
+      ray.t_delta[axis] = start.t_delta[axis];
+      ray.stride[axis] = start.step[axis] * window_.strides()[axis];
+    }
+    ray.length_m = start.length_m;
+    ray.index = window_.IndexOf(start.key);
+    ray.end = window_.IndexOf(start.end);
+    rays_.push_back(ray);
+  }
+  void ExpectSameVoxels() {
+    GetParam().walk(rays_, window_.words());
+    std::vector<BitWindow::Block> blocks;
+    for (std::size_t row = 0; row < window_.rows(); ++row) {
+      BitWindow::TakeRow({&window_, 1}, row, blocks);
+    }
+    std::set<VoxelKey> visited;
+    for (const BitWindow::Block& block : blocks) {
+      block.mask.ForEach([&](int i) { visited.insert(VoxelAt(block.key, i)); });
+    }
+    EXPECT_EQ(visited, expected_);
+    rays_.clear();
+    expected_.clear();
+  }
+
+  const VoxelGrid grid_{kResolution_m};
+  BitWindow window_;
+  std::vector<WindowRay> rays_;
+  std::set<VoxelKey> expected_;
+};
+
+TEST_P(WindowWalkTest, EmptyWithoutRays) { ExpectSameVoxels(); }
+
+TEST_P(WindowWalkTest, VisitsTheVoxelsOfWalkRay) {
+  Random random(3);
+  // Fewer rays than lanes, as many, and many more.
+  for (const int count : {1, 2, 7, 8, 23, 24, 25, 1000}) {
+    for (int i = 0; i < count; ++i) {
+      Add(random.Vector(3).cast<float>(), random.Vector(12).cast<float>());
+    }
+    ExpectSameVoxels();
+  }
+}
+
+TEST_P(WindowWalkTest, RaysAlongAxesAndThroughBorders) {
+  Random random(4);
+  for (int i = 0; i < 2000; ++i) {
+    Eigen::Vector3d origin = random.Vector(3), end = random.Vector(12);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (random.Integer(0, 2) == 0) end[axis] = origin[axis];
+      if (random.Integer(0, 3) == 0) end[axis] = std::round(10 * end[axis]) / 10;
+      if (random.Integer(0, 3) == 0) origin[axis] = std::round(10 * origin[axis]) / 10;
+    }
+    Add(origin.cast<float>(), end.cast<float>());
+  }
+  ExpectSameVoxels();
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, WindowWalkTest,
+                         testing::Values(Case{"Portable", WalkWindowPortable, [] { return true; }},
+                                         Case{"Avx512", WalkWindowAvx512, HasAvx512}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace clearway
