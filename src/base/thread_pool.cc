@@ -1,5 +1,7 @@
 #include "clearway/base/thread_pool.h"
 
+#include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -74,6 +76,15 @@ void ThreadPool::ParallelFor(std::size_t size, const Body& body) {
     std::unique_lock lock(state_->mutex);
     state_->work_done.wait(lock, [&] { return state_->running == 0; });
   }
+}
+
+void ThreadPool::ParallelChunks(std::size_t size, std::size_t chunk, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  ParallelFor(threads_, [&](int worker, std::size_t, std::size_t) {
+    for (std::size_t begin; (begin = next.fetch_add(chunk)) < size;) {
+      body(worker, begin, std::min(begin + chunk, size));
+    }
+  });
 }
 
 }  // namespace clearway

@@ -1,20 +1,73 @@
 #include "clearway/map/block_tree.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace clearway {
 
+namespace {
+
+std::size_t HashOf(BlockKey key) {
+  const auto mix = [](std::int32_t i, std::uint32_t factor) {
+    return static_cast<std::uint32_t>(i) * factor;
+  };
+  return mix(key.x, 73856093) ^ mix(key.y, 19349663) ^ mix(key.z, 83492791);
+}
+
+}  // namespace
+
+void BlockTree::IndexRoots() {
+  root_index_.assign(std::bit_ceil(2 * roots_.size() + 1), -1);
+  const std::size_t mask = root_index_.size() - 1;
+  for (std::size_t i = 0; i < roots_.size(); ++i) {
+    std::size_t place = HashOf(roots_[i].key) & mask;
+    while (root_index_[place] >= 0) place = (place + 1) & mask;
+    root_index_[place] = static_cast<std::int32_t>(i);
+  }
+}
+
+const BlockTree::Upper* BlockTree::FindRoot(BlockKey root_key) const {
+  if (roots_.empty()) return nullptr;
+  const std::size_t mask = root_index_.size() - 1;
+  for (std::size_t place = HashOf(root_key) & mask;; place = (place + 1) & mask) {
+    const std::int32_t i = root_index_[place];
+    if (i < 0) return nullptr;
+    if (roots_[i].key == root_key) return roots_[i].node.get();
+  }
+}
+
+const BlockTree::Lower* BlockTree::FindLower(BlockKey key) const {
+  const Upper* upper = FindRoot(RootKey(key));
+  if (upper == nullptr) return nullptr;
+  const Middle* middle = upper->children[Slot(key, 2 * kFanBits)].get();
+  return middle == nullptr ? nullptr : middle->children[Slot(key, kFanBits)].get();
+}
+
 const VoxelBlock* BlockTree::Find(BlockKey key) const {
-  const BlockKey root_key = RootKey(key);
-  const auto root = std::lower_bound(roots_.begin(), roots_.end(), root_key,
-                                     [](const Root& r, BlockKey k) { return r.key < k; });
-  if (root == roots_.end() || root->key != root_key) return nullptr;
-  const Middle* middle = root->node->children[Slot(key, 2 * kFanBits)].get();
-  if (middle == nullptr) return nullptr;
-  const Lower* lower = middle->children[Slot(key, kFanBits)].get();
+  const Lower* lower = FindLower(key);
   if (lower == nullptr) return nullptr;
   const Leaf* leaf = lower->children[Slot(key, 0)].get();
   return leaf == nullptr ? nullptr : &leaf->block;
+}
+
+void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+  constexpr std::size_t kAtOnce = 64;  // memory accesses under way
+  static const Lower kNone;
+  for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
+    const std::size_t end = std::min(begin + kAtOnce, keys.size());
+    const boost::intrusive_ptr<Leaf>* leaves[kAtOnce];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Lower* lower = FindLower(keys[i]);
+      leaves[i - begin] = &(lower == nullptr ? kNone : *lower).children[Slot(keys[i], 0)];
+      __builtin_prefetch(leaves[i - begin]);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      const Leaf* leaf = leaves[i - begin]->get();
+      blocks[i] = leaf == nullptr ? nullptr : &leaf->block;
+      __builtin_prefetch(leaf);
+      __builtin_prefetch(reinterpret_cast<const char*>(leaf) + 64);
+    }
+  }
 }
 
 // The node itself if this tree alone holds it, else a copy that it alone holds.
@@ -30,40 +83,66 @@ Node* BlockTree::Writable(boost::intrusive_ptr<Node>& node) {
 
 // Both return by how much the number of blocks grew, and leave a null pointer where nothing
 // remains.
-int BlockTree::PutInto(boost::intrusive_ptr<Leaf>& leaf, BlockKey, const VoxelBlock& block) {
-  const bool existed = leaf != nullptr;
-  const bool exists = block.observed.Any();
-  if (exists) {
-    if (!existed || leaf->use_count() != 1) leaf = new Leaf;  // no need to copy what is replaced
-    leaf->block = block;
-  } else {
-    leaf.reset();
-  }
+int BlockTree::PutInto(LeafPtr& place, BlockKey, LeafPtr&& leaf) {
+  const bool existed = place != nullptr;
+  const bool exists = leaf->block.observed.Any();
+  place = exists ? std::move(leaf) : nullptr;
   return static_cast<int>(exists) - static_cast<int>(existed);
 }
 
 template <class Child>
-int BlockTree::PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key,
-                       const VoxelBlock& block) {
+int BlockTree::PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key, LeafPtr&& leaf) {
   Branch<Child>* writable = Writable(node);
   const int slot = Slot(key, ShiftBelow(writable));
   boost::intrusive_ptr<Child>& child = writable->children[slot];
-  const int growth = PutInto(child, key, block);
-  const std::uint64_t bit = std::uint64_t{1} << slot;
-  writable->used = child != nullptr ? writable->used | bit : writable->used & ~bit;
+  const int growth = PutInto(child, key, std::move(leaf));
+  const auto mark = [slot](std::uint64_t& slots, bool set) {
+    slots = (slots & ~(std::uint64_t{1} << slot)) | std::uint64_t{set} << slot;
+  };
+  mark(writable->used, child != nullptr);
+  mark(writable->occupied, child != nullptr && AnyOccupied(*child));
   if (writable->used == 0) node.reset();
   return growth;
 }
 
-void BlockTree::Put(BlockKey key, const VoxelBlock& block) {
+void BlockTree::PutLeaf(BlockKey key, LeafPtr leaf) {
   const BlockKey root_key = RootKey(key);
   auto root = std::lower_bound(roots_.begin(), roots_.end(), root_key,
                                [](const Root& r, BlockKey k) { return r.key < k; });
   if (root == roots_.end() || root->key != root_key) {
     root = roots_.insert(root, {root_key, nullptr});
+    IndexRoots();
   }
-  size_ += PutInto(root->node, key, block);
-  if (root->node == nullptr) roots_.erase(root);
+  size_ += PutInto(root->node, key, std::move(leaf));
+  if (root->node != nullptr) return;
+  roots_.erase(root);
+  IndexRoots();
+}
+
+void BlockTree::Put(BlockKey key, const VoxelBlock& block) {
+  LeafPtr leaf = new Leaf;
+  leaf->block = block;
+  PutLeaf(key, std::move(leaf));
+}
+
+// The blocks are made in parallel and put in their places by the caller alone.
+void BlockTree::PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const MakeBlock& make) {
+  constexpr std::size_t kAtOnce = 256;
+  static constexpr VoxelBlock kEmpty{};
+  std::vector<LeafPtr> made(keys.size());
+  pool.ParallelChunks(keys.size(), kAtOnce, [&](int worker, std::size_t begin, std::size_t end) {
+    LeafPtr leaf;
+    for (std::size_t i = begin; i < end; ++i) {
+      const VoxelBlock* before = Find(keys[i]);
+      if (leaf == nullptr) leaf = new Leaf;
+      if (make(worker, i, before == nullptr ? kEmpty : *before, leaf->block)) {
+        made[i] = std::move(leaf);
+      }
+    }
+  });
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (made[i] != nullptr) PutLeaf(keys[i], std::move(made[i]));
+  }
 }
 
 }  // namespace clearway

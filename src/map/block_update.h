@@ -6,8 +6,9 @@
 
 namespace clearway {
 
-// One hit or one miss for each marked voxel; a hit beats a miss, and an end voxel without a hit
-// stays as it is.
-void ApplyScan(const ScanUpdate::Block& scan, const OccupancyModel& model, VoxelBlock& block);
+// Makes `after` the block `before` with one hit or one miss for each marked voxel; a hit beats a
+// miss, and an end voxel without a hit stays as it is. Returns whether anything differs.
+bool ApplyScan(const ScanUpdate::Block& scan, const OccupancyModel& model, const VoxelBlock& before,
+               VoxelBlock& after);
 
 }  // namespace clearway

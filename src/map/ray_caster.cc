@@ -11,6 +11,7 @@ namespace clearway {
 namespace {
 
 constexpr std::size_t kRaysAtOnce = 2048;  // prepared before they are walked
+constexpr std::size_t kRowsAtOnce = 64;    // read out of the windows
 
 const Eigen::Vector3f& OriginOf(const RayCloud& cloud, std::size_t i) {
   return cloud.origins.size() == 1 ? cloud.origins[0] : cloud.origins[i];
@@ -97,24 +98,27 @@ void RayCaster::Impl::MarkFree(const VoxelGrid& grid, const RayCloud& cloud,
                                const LimitedCloud& limited, const std::vector<std::uint32_t>& rays,
                                ScanUpdate& update) {
   for (BitWindow& window : windows) window.Cover(limited.first, limited.last);
-  pool.ParallelFor(rays.size(), [&](int worker, std::size_t begin, std::size_t end) {
-    BitWindow& window = windows[worker];
-    std::vector<WindowRay> ready;
-    for (std::size_t r = begin; r < end;) {
-      ready.clear();
-      for (; r < end && ready.size() < kRaysAtOnce; ++r) {
-        const RayStart start = StartRay(grid, OriginOf(cloud, rays[r]), limited.rays[rays[r]].end);
-        if (start.key != start.end) ready.push_back(InWindow(start, window));
-      }
-      walk(ready, window.words());
-    }
-  });
-  std::vector<std::vector<BitWindow::Block>> blocks(pool.threads());
-  pool.ParallelFor(windows[0].rows(), [&](int worker, std::size_t begin, std::size_t end) {
+  pool.ParallelChunks(rays.size(), kRaysAtOnce,
+                      [&](int worker, std::size_t begin, std::size_t end) {
+                        BitWindow& window = windows[worker];
+                        std::vector<WindowRay> ready;
+                        for (std::size_t r = begin; r < end; ++r) {
+                          const RayStart start =
+                              StartRay(grid, OriginOf(cloud, rays[r]), limited.rays[rays[r]].end);
+                          if (start.key != start.end) ready.push_back(InWindow(start, window));
+                        }
+                        walk(ready, window.words());
+                      });
+  const std::size_t rows = windows[0].rows();
+  std::vector<std::vector<BitWindow::Block>> blocks((rows + kRowsAtOnce - 1) / kRowsAtOnce);
+  pool.ParallelChunks(rows, kRowsAtOnce, [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
-      BitWindow::TakeRow(windows, row, blocks[worker]);
+      BitWindow::TakeRow(windows, row, blocks[begin / kRowsAtOnce]);
     }
   });
+  std::size_t count = 0;
+  for (const auto& part : blocks) count += part.size();
+  update.Reserve(count);
   for (const auto& part : blocks) {
     for (const BitWindow::Block& block : part) update.MarkFree(block.key, block.mask);
   }

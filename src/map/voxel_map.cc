@@ -9,6 +9,11 @@ namespace {
 
 constexpr VoxelBlock kEmptyBlock{};
 
+// Most often nothing has to be counted.
+int Growth(const BlockMask& before, const BlockMask& after) {
+  return before == after ? 0 : after.Count() - before.Count();
+}
+
 template <class MaskOf>
 Aabb BoxAround(const VoxelMap& map, MaskOf mask_of) {
   Aabb box;
@@ -36,18 +41,27 @@ void VoxelMap::PutBlock(BlockKey key, const VoxelBlock& block) {
   const VoxelBlock* before = blocks_.Find(key);
   if (before == nullptr) before = &kEmptyBlock;
   if (*before == block) return;
-  observed_count_ += block.observed.Count() - before->observed.Count();
-  occupied_count_ += block.occupied.Count() - before->occupied.Count();
+  observed_count_ += Growth(before->observed, block.observed);
+  occupied_count_ += Growth(before->occupied, block.occupied);
   blocks_.Put(key, block);
 }
 
-void VoxelMap::Update(const ScanUpdate& update) {
-  update.ForEach([&](BlockKey key, const ScanUpdate::Block& scan) {
-    const VoxelBlock* before = blocks_.Find(key);
-    VoxelBlock block = before == nullptr ? kEmptyBlock : *before;
-    ApplyScan(scan, model_, block);
-    PutBlock(key, block);
-  });
+void VoxelMap::Update(const ScanUpdate& update, ThreadPool& pool) {
+  struct alignas(64) Counts {  // a thread's own cache line
+    std::int64_t observed = 0, occupied = 0;
+  };
+  std::vector<Counts> growth(pool.threads());
+  blocks_.PutAll(update.keys(), pool,
+                 [&](int worker, std::size_t i, const VoxelBlock& before, VoxelBlock& after) {
+                   if (!ApplyScan(update.block(i), model_, before, after)) return false;
+                   growth[worker].observed += Growth(before.observed, after.observed);
+                   growth[worker].occupied += Growth(before.occupied, after.occupied);
+                   return true;
+                 });
+  for (const Counts& part : growth) {
+    observed_count_ += part.observed;
+    occupied_count_ += part.occupied;
+  }
 }
 
 void VoxelMap::Set(VoxelKey key, LogOdds value) {

@@ -164,7 +164,7 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
     const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
     if (map_O.grid().Addressable(p_O)) update.MarkHit(map_O.grid().KeyOf(p_O));
   }
-  map_O.Update(update);
+  map_O.Update(update, pool);
   object = WithMap(std::move(object), std::move(map_O));
   object.last_seen = stamp;
   ++object.frames_seen;

@@ -95,9 +95,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
       ++report.objects_dropped;
     }
   }
-  static_map_W.Update(
-      caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays));  // II-B, II-C
-  for (const auto& [id, clue] : clues) {                                     // II-D
+  static_map_W.Update(caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays),
+                      *pool_);            // II-B, II-C
+  for (const auto& [id, clue] : clues) {  // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =
         Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,

@@ -36,6 +36,19 @@ TEST_P(ThreadPoolTest, CutsByWorkerAlone) {
   }
 }
 
+TEST_P(ThreadPoolTest, ChunksHoldEachIndexOnce) {
+  ThreadPool dut(GetParam());
+  for (std::size_t size : {0u, 1u, 10u, 1000u, 1003u}) {
+    std::vector<std::atomic<int>> visits(size);
+    dut.ParallelChunks(size, 10, [&](int worker, std::size_t begin, std::size_t end) {
+      EXPECT_LT(worker, GetParam());
+      EXPECT_TRUE(begin % 10 == 0 && begin < end && end <= begin + 10);
+      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+    });
+    for (const auto& count : visits) EXPECT_EQ(count, 1);
+  }
+}
+
 TEST_P(ThreadPoolTest, RunsTheFirstShareInTheCaller) {
   ThreadPool dut(GetParam());
   std::thread::id first;

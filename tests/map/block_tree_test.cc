@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <thread>
 
 #include "support/random.h"
@@ -64,6 +65,15 @@ TEST(BlockTree, AgreesWithAMapOverRandomPutsAndRemovals) {
   }
   EXPECT_EQ(dut.size(), reference.size());
   EXPECT_EQ(Contents(dut), reference);
+
+  std::vector<BlockKey> keys;
+  for (int i = 0; i < 1000; ++i) keys.push_back(RandomKey(random));
+  std::vector<const VoxelBlock*> found(keys.size());
+  dut.FindAll(keys, found.data());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    EXPECT_EQ(found[i], dut.Find(keys[i]));
+    EXPECT_EQ(found[i] != nullptr, reference.contains(keys[i]));
+  }
 }
 
 TEST(BlockTree, ForEachInVisitsTheBoxAlone) {
@@ -83,6 +93,57 @@ TEST(BlockTree, ForEachInVisitsTheBoxAlone) {
   });
   EXPECT_EQ(visited, expected);
   EXPECT_GT(visited, 10u);
+}
+
+TEST(BlockTree, AnyOccupiedInVisitsOccupiedBlocksInTheBox) {
+  Random random(6);
+  BlockTree dut;
+  for (int i = 0; i < 4000; ++i) {  // many are overwritten: free, occupied, gone
+    const int kind = random.Integer(0, 3);
+    const BlockKey key = RandomKey(random);
+    dut.Put(key, kind == 0 ? VoxelBlock{} : BlockWith(3, static_cast<LogOdds>(kind == 1 ? 1 : -1)));
+  }
+  for (int box = 0; box < 200; ++box) {
+    const BlockKey a = RandomKey(random), b = RandomKey(random);
+    const BlockKey low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    const BlockKey high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+    std::vector<BlockKey> expected, visited;
+    dut.ForEachIn(low, high, [&](BlockKey key, const VoxelBlock& block) {
+      if (block.occupied.Any()) expected.push_back(key);
+    });
+    const bool stopped = dut.AnyOccupiedIn(low, high, [&](BlockKey key, const VoxelBlock& block) {
+      EXPECT_EQ(&block, dut.Find(key));
+      visited.push_back(key);
+      return visited.size() == 20;
+    });
+    EXPECT_EQ(stopped, expected.size() >= 20);
+    if (expected.size() > 20) expected.resize(20);
+    EXPECT_EQ(visited, expected);
+  }
+}
+
+TEST(BlockTree, PutAllIsManyPuts) {
+  ThreadPool pool(3);
+  Random random(7);
+  BlockTree dut, reference;
+  for (int i = 0; i < 1000; ++i) dut.Put(RandomKey(random), BlockWith(1, 1));
+  reference = dut;
+  const BlockTree before = dut;
+  std::set<BlockKey> distinct;
+  while (distinct.size() < 1000) distinct.insert(RandomKey(random));
+  const std::vector<BlockKey> keys(distinct.begin(), distinct.end());
+  dut.PutAll(keys, pool, [&](int, std::size_t i, const VoxelBlock& old, VoxelBlock& block) {
+    const VoxelBlock* stored = before.Find(keys[i]);
+    EXPECT_EQ(old, stored == nullptr ? VoxelBlock{} : *stored);
+    block = i % 3 == 0 ? VoxelBlock{} : BlockWith(2, static_cast<LogOdds>(i));
+    return i % 5 != 0;
+  });
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i % 5 == 0) continue;
+    reference.Put(keys[i], i % 3 == 0 ? VoxelBlock{} : BlockWith(2, static_cast<LogOdds>(i)));
+  }
+  EXPECT_EQ(Contents(dut), Contents(reference));
+  EXPECT_EQ(dut.size(), reference.size());
 }
 
 TEST(BlockTree, WritingToACopyLeavesTheOriginal) {

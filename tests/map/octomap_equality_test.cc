@@ -45,7 +45,8 @@ TEST_P(OctomapEqualityTest, SameVoxelsOverManyScans) {
     const auto points = RandomCloud(random, 1500);
     const std::vector<RayEnd> kinds(points.size(), RayEnd::kHit);
     dut.Update(
-        caster.Cast(dut.grid(), {points, kinds, {&origin, 1}}, {c.max_range_m, c.discretize}));
+        caster.Cast(dut.grid(), {points, kinds, {&origin, 1}}, {c.max_range_m, c.discretize}),
+        pool);
     oracle.insertPointCloud(testing_support::ToOctomap(points), testing_support::ToOctomap(origin),
                             c.max_range_m, false, c.discretize);
   }

@@ -45,7 +45,7 @@ Marks Cast(std::vector<Eigen::Vector3f> ends, std::vector<RayEnd> kinds,
   const ScanUpdate update =
       RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, {&origin, 1}}, options);
   Marks marks;
-  for (BlockKey key : update.SortedKeys()) {
+  for (BlockKey key : update.keys()) {
     const auto& block = *update.Find(key);
     block.free.ForEach([&](int i) { marks.free.insert(VoxelAt(key, i)); });
     block.hit.ForEach([&](int i) { marks.hit.insert(VoxelAt(key, i)); });

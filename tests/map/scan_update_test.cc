@@ -9,7 +9,7 @@ TEST(ScanUpdate, Empty) {
   const ScanUpdate dut;
   EXPECT_TRUE(dut.Empty());
   EXPECT_EQ(dut.Find({0, 0, 0}), nullptr);
-  EXPECT_TRUE(dut.SortedKeys().empty());
+  EXPECT_TRUE(dut.keys().empty());
 }
 
 TEST(ScanUpdate, MarksInTheRightBlock) {
@@ -17,7 +17,8 @@ TEST(ScanUpdate, MarksInTheRightBlock) {
   dut.MarkFree({-1, 0, 0});
   dut.MarkHit({8, 0, 0});
   dut.MarkEnd({9, 0, 0});
-  EXPECT_EQ(dut.SortedKeys(), (std::vector<BlockKey>{{-1, 0, 0}, {1, 0, 0}}));
+  EXPECT_EQ(dut.keys(), (std::vector<BlockKey>{{-1, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(dut.block(0).free.Test(7));
   EXPECT_TRUE(dut.Find({-1, 0, 0})->free.Test(7));
   EXPECT_EQ(dut.Find({-1, 0, 0})->free.Count(), 1);
   EXPECT_EQ(dut.Find({1, 0, 0})->hit.Count(), 1);
@@ -31,7 +32,7 @@ TEST(ScanUpdate, MergeIsTheUnion) {
   other.MarkHit({1, 0, 0});
   other.MarkFree({64, 0, 0});
   dut.Merge(other);
-  EXPECT_EQ(dut.SortedKeys().size(), 2u);
+  EXPECT_EQ(dut.keys().size(), 2u);
   EXPECT_EQ(dut.Find({0, 0, 0})->free.Count(), 1);
   EXPECT_EQ(dut.Find({0, 0, 0})->hit.Count(), 1);
 }

@@ -34,6 +34,7 @@ TEST(VoxelMap, ZeroLogOddsIsObserved) {
 // The reference is a dense map updated voxel by voxel.
 TEST(VoxelMap, UpdateAgreesWithBruteForce) {
   Random random(1);
+  ThreadPool pool(2);
   VoxelMap dut(0.1);
   const OccupancyModel model;
   std::map<VoxelKey, LogOdds> reference;
@@ -63,7 +64,7 @@ TEST(VoxelMap, UpdateAgreesWithBruteForce) {
         reference[key] = model.AfterMiss(reference[key]);
       }
     }
-    dut.Update(update);
+    dut.Update(update, pool);
   }
   std::int64_t occupied = 0;
   for (const auto& [key, value] : reference) {
@@ -75,12 +76,13 @@ TEST(VoxelMap, UpdateAgreesWithBruteForce) {
 }
 
 TEST(VoxelMap, ASaturatedMissCopiesNothing) {
+  ThreadPool pool(1);
   VoxelMap dut(0.1);
   ScanUpdate update;
   update.MarkFree({1, 1, 1});
-  for (int i = 0; i < 10; ++i) dut.Update(update);
+  for (int i = 0; i < 10; ++i) dut.Update(update, pool);
   const VoxelMap before = dut;
-  dut.Update(update);
+  dut.Update(update, pool);
   EXPECT_EQ(dut.blocks().Find({0, 0, 0}), before.blocks().Find({0, 0, 0}));
 }
 

@@ -25,6 +25,12 @@ class ThreadPool {
   void ParallelFor(std::size_t size,
                    const std::function<void(int worker, std::size_t begin, std::size_t end)>& body);
 
+  // Cuts [0, size) into ranges of at most `chunk` and calls body(worker, begin, end) for each; a
+  // thread takes the next one when it is done with its last. Which thread does what is open.
+  void ParallelChunks(
+      std::size_t size, std::size_t chunk,
+      const std::function<void(int worker, std::size_t begin, std::size_t end)>& body);
+
  private:
   struct State;
   int threads_;

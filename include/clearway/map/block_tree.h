@@ -1,13 +1,18 @@
 // A persistent sparse array of blocks.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/smart_ptr/intrusive_ptr.hpp>
 #include <boost/smart_ptr/intrusive_ref_counter.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "clearway/base/thread_pool.h"
 #include "clearway/map/voxel_block.h"
 #include "clearway/map/voxel_key.h"
 
@@ -27,8 +32,17 @@ class BlockTree {
   // destroyed.
   const VoxelBlock* Find(BlockKey key) const;
 
+  // Find for many keys: blocks[i] is that of keys[i]. Waits for memory once for many of them.
+  void FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const;
+
   // Stores the block, or removes it if nothing in it is observed.
   void Put(BlockKey key, const VoxelBlock& block);
+
+  // Replaces many blocks, no key twice: fills `after` for keys[i] and returns whether it is to be
+  // stored. Called on the pool's threads in any order; `before` is empty where there is no block.
+  using MakeBlock =
+      std::function<bool(int worker, std::size_t i, const VoxelBlock& before, VoxelBlock& after)>;
+  void PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const MakeBlock& make);
 
   std::size_t size() const { return size_; }
 
@@ -39,6 +53,11 @@ class BlockTree {
   // As ForEach, but only for the blocks whose key lies in [min, max] along each axis.
   template <class Visit>
   void ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const;
+
+  // The blocks in [min, max] in which a voxel is occupied, as long as visit(BlockKey, const
+  // VoxelBlock&) is false; returns whether it ever was true. Free space is skipped by regions.
+  template <class Visit>
+  bool AnyOccupiedIn(BlockKey min, BlockKey max, Visit&& visit) const;
 
   // Calls visit(BlockKey, const VoxelBlock* before, const VoxelBlock* after) for every block that
   // is not shared by the two trees; null where one has none. Takes time in proportion to what was
@@ -56,8 +75,9 @@ class BlockTree {
   };
   template <class Child>
   struct Branch : boost::intrusive_ref_counter<Branch<Child>> {
+    std::uint64_t used = 0;      // the children there are
+    std::uint64_t occupied = 0;  // those with an occupied voxel
     std::array<boost::intrusive_ptr<Child>, kFan> children;
-    std::uint64_t used = 0;
   };
   using Lower = Branch<Leaf>;
   using Middle = Branch<Lower>;
@@ -75,6 +95,9 @@ class BlockTree {
   static constexpr BlockKey RootKey(BlockKey key) {
     return {key.x >> kRootBits, key.y >> kRootBits, key.z >> kRootBits};
   }
+  static BlockKey FirstBlockOf(const Root& root) {
+    return {root.key.x << kRootBits, root.key.y << kRootBits, root.key.z << kRootBits};
+  }
   static int Slot(BlockKey key, int shift) {
     return (key.x >> shift & 3) | (key.y >> shift & 3) << 2 | (key.z >> shift & 3) << 4;
   }
@@ -86,38 +109,92 @@ class BlockTree {
 
   template <class Node>
   static Node* Writable(boost::intrusive_ptr<Node>& node);
+  static bool AnyOccupied(const Leaf& leaf) { return leaf.block.occupied.Any(); }
   template <class Child>
-  static int PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key,
-                     const VoxelBlock& block);
-  static int PutInto(boost::intrusive_ptr<Leaf>& leaf, BlockKey key, const VoxelBlock& block);
+  static bool AnyOccupied(const Branch<Child>& branch) {
+    return branch.occupied != 0;
+  }
+  using LeafPtr = boost::intrusive_ptr<Leaf>;
+  void PutLeaf(BlockKey key, LeafPtr leaf);
+  template <class Child>
+  static int PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key, LeafPtr&& leaf);
+  static int PutInto(LeafPtr& place, BlockKey key, LeafPtr&& leaf);
 
-  template <class Node, class Visit>
-  static void VisitNode(const Node& node, BlockKey base, BlockKey min, BlockKey max, Visit& visit);
+  // The slots of a branch at `base` whose blocks may lie in [min, max].
+  static std::uint64_t SlotsIn(BlockKey base, int shift, BlockKey min, BlockKey max);
+  // Calls visit(const Root&), in the order of their keys, for the roots that may hold a block in
+  // [min, max], until it returns true; returns whether it did.
+  template <class Visit>
+  bool AnyRootIn(BlockKey min, BlockKey max, Visit&& visit) const;
+  template <bool kOccupied, class Node, class Visit>
+  static bool AnyIn(const Node& node, BlockKey base, BlockKey min, BlockKey max, Visit& visit);
   template <class Node, class Visit>
   static void VisitDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
 
+  const Upper* FindRoot(BlockKey root_key) const;
+  const Lower* FindLower(BlockKey key) const;
+  void IndexRoots();
+
   std::vector<Root> roots_;  // ascending keys
+  // Where a root is in roots_, -1 for nowhere: a hash table with open addressing, of a power of 2
+  // entries of which at most half are used.
+  std::vector<std::int32_t> root_index_;
   std::size_t size_ = 0;
 };
 
-template <class Node, class Visit>
-void BlockTree::VisitNode(const Node& node, BlockKey base, BlockKey min, BlockKey max,
-                          Visit& visit) {
+inline std::uint64_t BlockTree::SlotsIn(BlockKey base, int shift, BlockKey min, BlockKey max) {
+  // For each axis the bits of the slots from `low` on and up to `high`, 0 to 3.
+  const auto along = [&](std::int32_t from, std::int32_t to, std::int32_t start, int width,
+                         std::uint64_t repeat) -> std::uint64_t {
+    const std::int32_t low = std::max((from - start) >> shift, 0);
+    const std::int32_t high = std::min((to - start) >> shift, 3);
+    if (low > high) return 0;
+    const std::uint64_t upto =
+        high == 3 && width == 16 ? 0 : std::uint64_t{1} << width * (high + 1);
+    return (upto - (std::uint64_t{1} << width * low)) * repeat;
+  };
+  return along(min.x, max.x, base.x, 1, 0x1111'1111'1111'1111) &
+         along(min.y, max.y, base.y, 4, 0x0001'0001'0001'0001) & along(min.z, max.z, base.z, 16, 1);
+}
+
+template <bool kOccupied, class Node, class Visit>
+bool BlockTree::AnyIn(const Node& node, BlockKey base, BlockKey min, BlockKey max, Visit& visit) {
   if constexpr (std::is_same_v<Node, Leaf>) {
-    visit(base, node.block);
+    return visit(base, node.block);
   } else {
     constexpr int shift = ShiftBelow(static_cast<const Node*>(nullptr));
-    constexpr std::int32_t extent = (1 << shift) - 1;
-    for (std::uint64_t used = node.used; used != 0; used &= used - 1) {
-      const int slot = std::countr_zero(used);
+    std::uint64_t slots = (kOccupied ? node.occupied : node.used) & SlotsIn(base, shift, min, max);
+    for (; slots != 0; slots &= slots - 1) {
+      const int slot = std::countr_zero(slots);
       const BlockKey child = ChildKey(base, slot, shift);
-      if (child.x > max.x || child.y > max.y || child.z > max.z || child.x + extent < min.x ||
-          child.y + extent < min.y || child.z + extent < min.z) {
-        continue;
-      }
-      VisitNode(*node.children[slot], child, min, max, visit);
+      if (AnyIn<kOccupied>(*node.children[slot], child, min, max, visit)) return true;
     }
+    return false;
   }
+}
+
+template <class Visit>
+bool BlockTree::AnyRootIn(BlockKey min, BlockKey max, Visit&& visit) const {
+  const BlockKey low = RootKey(min), high = RootKey(max);
+  const auto from = [this](BlockKey key) {
+    return std::lower_bound(roots_.begin(), roots_.end(), key,
+                            [](const Root& r, BlockKey k) { return r.key < k; });
+  };
+  for (auto root = from(low); root != roots_.end() && root->key <= high;) {
+    // The next key in the range, by x, then y, then z: what lies between is left out.
+    BlockKey next = root->key;
+    if (next.y < low.y) next = {next.x, low.y, low.z};
+    if (next.y > high.y) next = {next.x + 1, low.y, low.z};
+    if (next.z < low.z) next.z = low.z;
+    if (next.z > high.z) next = {next.x, next.y + 1, low.z};
+    if (next != root->key) {
+      root = from(next);
+      continue;
+    }
+    if (visit(*root)) return true;
+    ++root;
+  }
+  return false;
 }
 
 template <class Visit>
@@ -128,15 +205,20 @@ void BlockTree::ForEach(Visit&& visit) const {
 
 template <class Visit>
 void BlockTree::ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const {
-  const BlockKey low = RootKey(min), high = RootKey(max);
-  for (const Root& root : roots_) {
-    if (root.key.x < low.x || root.key.y < low.y || root.key.z < low.z || root.key.x > high.x ||
-        root.key.y > high.y || root.key.z > high.z) {
-      continue;
-    }
-    const BlockKey base{root.key.x << kRootBits, root.key.y << kRootBits, root.key.z << kRootBits};
-    VisitNode(*root.node, base, min, max, visit);
-  }
+  const auto every = [&](BlockKey key, const VoxelBlock& block) {
+    visit(key, block);
+    return false;
+  };
+  AnyRootIn(min, max, [&](const Root& root) {
+    return AnyIn<false>(*root.node, FirstBlockOf(root), min, max, every);
+  });
+}
+
+template <class Visit>
+bool BlockTree::AnyOccupiedIn(BlockKey min, BlockKey max, Visit&& visit) const {
+  return AnyRootIn(min, max, [&](const Root& root) {
+    return AnyIn<true>(*root.node, FirstBlockOf(root), min, max, visit);
+  });
 }
 
 template <class Node, class Visit>
@@ -164,9 +246,8 @@ void BlockTree::ForEachDifference(const BlockTree& before, const BlockTree& afte
   while (b != before.roots_.end() || a != after.roots_.end()) {
     const bool has_b = a == after.roots_.end() || (b != before.roots_.end() && b->key <= a->key);
     const bool has_a = b == before.roots_.end() || (a != after.roots_.end() && a->key <= b->key);
-    const BlockKey key = has_b ? b->key : a->key;
     VisitDifference(has_b ? b->node.get() : nullptr, has_a ? a->node.get() : nullptr,
-                    BlockKey{key.x << kRootBits, key.y << kRootBits, key.z << kRootBits}, visit);
+                    FirstBlockOf(has_b ? *b : *a), visit);
     if (has_b) ++b;
     if (has_a) ++a;
   }

@@ -32,24 +32,18 @@ class ScanUpdate {
   void Merge(const ScanUpdate& other);
   bool Empty() const { return blocks_.empty(); }
   const Block* Find(BlockKey key) const;
-  std::size_t size() const { return blocks_.size(); }
-  std::vector<BlockKey> SortedKeys() const;
-  // Calls visit(BlockKey, const Block&) for each block, in the order in which they were marked
-  // first.
-  template <class Visit>
-  void ForEach(Visit&& visit) const {
-    for (const Entry& entry : blocks_) visit(entry.key, entry.block);
-  }
+  // The blocks in which something is marked, each once, in the order in which they were marked
+  // first; block(i) is that of keys()[i].
+  const std::vector<BlockKey>& keys() const { return keys_; }
+  const Block& block(std::size_t i) const { return blocks_[i]; }
+  void Reserve(std::size_t blocks);
 
  private:
   Block& BlockFor(BlockKey key);
 
-  struct Entry {
-    BlockKey key;
-    Block block;
-  };
   absl::flat_hash_map<BlockKey, std::size_t> index_;
-  std::vector<Entry> blocks_;
+  std::vector<BlockKey> keys_;
+  std::vector<Block> blocks_;
   BlockKey last_key_;  // the block written last; rays stay in one block for several steps
   std::size_t last_ = 0;
 };

@@ -56,9 +56,9 @@ enum class VoxelState : std::uint8_t { kUnknown = 0, kFree = 1, kOccupied = 2 };
 // and no bit, and `occupied` holds exactly the observed voxels at or above the model's threshold,
 // so that equal contents are equal bytes.
 struct VoxelBlock {
-  std::array<LogOdds, kVoxelsPerBlock> log_odds{};
   BlockMask observed;
   BlockMask occupied;
+  std::array<LogOdds, kVoxelsPerBlock> log_odds{};
 
   VoxelState State(int index) const {
     if (occupied.Test(index)) return VoxelState::kOccupied;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "clearway/geometry/aabb.h"
@@ -74,6 +74,8 @@ class VoxelGrid {
   VoxelKey KeyOf(const Eigen::Vector3d& p) const {
     return {Index(p.x()), Index(p.y()), Index(p.z())};
   }
+  // The same for many points: keys[i] of points[i].
+  void KeysOf(std::span<const Eigen::Vector3d> points, VoxelKey* keys) const;
   Eigen::Vector3d CenterOf(VoxelKey key) const {
     return {Center(key.x), Center(key.y), Center(key.z)};
   }
@@ -87,8 +89,11 @@ class VoxelGrid {
   bool operator==(const VoxelGrid&) const = default;
 
  private:
+  // Rounds down, without the library's call that std::floor is on the smallest x86-64.
   std::int32_t Index(double coordinate) const {
-    return static_cast<std::int32_t>(std::floor(voxels_per_m_ * coordinate));
+    const double position = voxels_per_m_ * coordinate;
+    const auto toward_zero = static_cast<std::int32_t>(position);
+    return toward_zero - static_cast<std::int32_t>(position < toward_zero);
   }
 
   double resolution_m_;

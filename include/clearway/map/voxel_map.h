@@ -33,8 +33,8 @@ class VoxelMap {
 
   // Applies a scan: one hit or one miss per marked voxel, a hit beats a miss, an end voxel without
   // a hit stays as it is. A block in which nothing changes (every miss already at the clamp) is not
-  // copied.
-  void Update(const ScanUpdate& update);
+  // copied. The result does not depend on the number of threads.
+  void Update(const ScanUpdate& update, ThreadPool& pool);
 
   // Stores one voxel. The value is clamped to the model's range. The key must be InRange.
   void Set(VoxelKey key, LogOdds value);

@@ -1,0 +1,37 @@
+// Many lookups in one map.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "clearway/map/voxel_map.h"
+
+namespace clearway {
+
+// Looks up many points at once, which is several times as fast as one after the other: a block is
+// searched for once for the points in a row that lie in it, and memory is waited for once for many
+// points. Refers to the map, which must not be written to meanwhile. One thread; keep a reader, for
+// it keeps its memory.
+class VoxelReader {
+ public:
+  explicit VoxelReader(const VoxelMap& map);
+
+  // states[i] is the state of the voxel that holds points[i], in the map's frame; each |coordinate|
+  // must be at most grid().limit_m(). The spans are of one size.
+  void States(std::span<const Eigen::Vector3d> points, std::span<VoxelState> states);
+
+ private:
+  std::size_t CutIntoRuns(std::size_t count);
+
+  const VoxelMap& map_;
+  // Of each point: its voxel, its block as one number, its place there, and its run.
+  std::vector<VoxelKey> keys_;
+  std::vector<std::uint64_t> block_numbers_;
+  std::vector<std::uint32_t> indices_, runs_;
+  // Of each run of points in one block.
+  std::vector<BlockKey> block_keys_;
+  std::vector<const VoxelBlock*> blocks_;
+};
+
+}  // namespace clearway

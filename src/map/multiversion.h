@@ -1,0 +1,11 @@
+// Functions compiled for several processors, of which the one that runs picks its own.
+#pragma once
+
+// Before a function whose loops the compiler makes vectors of. The results are the same everywhere:
+// the same operations on more values at a time. For functions local to a file: Clang 14 gives
+// others a name that callers elsewhere do not know.
+#if defined(__x86_64__) && defined(__linux__)
+#define CLEARWAY_MULTIVERSION __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CLEARWAY_MULTIVERSION
+#endif

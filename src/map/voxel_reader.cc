@@ -1,0 +1,73 @@
+#include "clearway/map/voxel_reader.h"
+
+#include <algorithm>
+
+#include "map/multiversion.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kAtOnce = 256;  // points: all that is known of them stays in the first cache
+constexpr VoxelBlock kUnobserved{};
+
+CLEARWAY_MULTIVERSION
+void Take(const VoxelKey* keys, std::size_t count, std::uint64_t* block_numbers,
+          std::uint32_t* indices) {
+  constexpr int kBits = 21;  // of a block's key along an axis, and more
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t x = keys[i].x, y = keys[i].y, z = keys[i].z;
+    const auto block = [](std::uint32_t index) -> std::uint64_t {
+      return index >> kBlockBits & ((1u << kBits) - 1);
+    };
+    block_numbers[i] = block(x) | block(y) << kBits | block(z) << 2 * kBits;
+    indices[i] = (x & 7) | (y & 7) << 3 | (z & 7) << 6;
+  }
+}
+
+VoxelState StateOf(const VoxelBlock& block, std::uint32_t index) {
+  static_assert(static_cast<int>(VoxelState::kFree) == 1);
+  static_assert(static_cast<int>(VoxelState::kOccupied) == 2);
+  const int i = static_cast<int>(index);
+  return static_cast<VoxelState>(block.observed.Test(i) + block.occupied.Test(i));
+}
+
+}  // namespace
+
+VoxelReader::VoxelReader(const VoxelMap& map)
+    : map_(map),
+      keys_(kAtOnce),
+      block_numbers_(kAtOnce),
+      indices_(kAtOnce),
+      runs_(kAtOnce),
+      block_keys_(kAtOnce),
+      blocks_(kAtOnce) {}
+
+// Fills runs_ and block_keys_; returns how many runs there are.
+std::size_t VoxelReader::CutIntoRuns(std::size_t count) {
+  std::uint32_t run = 0;
+  std::uint64_t number = block_numbers_[0];
+  for (std::size_t i = 0; i < count; ++i) {
+    run += block_numbers_[i] != number;
+    number = block_numbers_[i];
+    runs_[i] = run;
+    block_keys_[run] = BlockOf(keys_[i]);
+  }
+  return run + 1;
+}
+
+void VoxelReader::States(std::span<const Eigen::Vector3d> points, std::span<VoxelState> states) {
+  for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, points.size() - begin);
+    map_.grid().KeysOf(points.subspan(begin, count), keys_.data());
+    Take(keys_.data(), count, block_numbers_.data(), indices_.data());
+    const std::size_t runs = CutIntoRuns(count);
+    map_.blocks().FindAll(std::span(block_keys_).first(runs), blocks_.data());
+    std::replace(blocks_.begin(), blocks_.begin() + runs, static_cast<const VoxelBlock*>(nullptr),
+                 &kUnobserved);
+    for (std::size_t i = 0; i < count; ++i) {
+      states[begin + i] = StateOf(*blocks_[runs_[i]], indices_[i]);
+    }
+  }
+}
+
+}  // namespace clearway
