@@ -1,6 +1,8 @@
 #include "clearway/scene/occupancy.h"
 
-#include <map>
+#include <algorithm>
+
+#include "clearway/scene/timed_scene.h"
 
 namespace clearway {
 namespace {
@@ -45,46 +47,59 @@ SpaceStatus ObjectSays(const SceneAtTime::Placed& placed, SolidMode mode,
 
 }  // namespace
 
+SceneAtTime::Placed SceneAtTime::Place(const SceneSnapshot& scene, const MovingObject& object,
+                                       Time t) {
+  const PredictedPose predicted = PredictPose(object, t, scene.params.horizon);
+  return {&object, predicted.T_W_O, Inverse(predicted.T_W_O), predicted.beyond_horizon_radius_m,
+          PlacedBox(object, predicted)};
+}
+
 SceneAtTime::SceneAtTime(const SceneSnapshot& scene, Time t) : scene_(&scene), time_(t) {
   objects_.reserve(scene.objects.size());
-  for (const auto& object : scene.objects) {
-    const PredictedPose predicted = PredictPose(*object, t, scene.params.horizon);
-    objects_.push_back({object.get(), predicted.T_W_O, Inverse(predicted.T_W_O),
-                        predicted.beyond_horizon_radius_m, PlacedBox(*object, predicted)});
-  }
+  for (const auto& object : scene.objects) objects_.push_back(Place(scene, *object, t));
 }
 
 PointOccupancy SceneAtTime::At(const Eigen::Vector3d& p_W) const {
-  const VoxelMap& map = scene_->static_map_W;
-  if (!scene_->params.bounds_W.Contains(p_W) || !map.grid().Addressable(p_W)) {
+  PointOccupancy answer = StaticOccupancy(*scene_, p_W);
+  if (answer.status == SpaceStatus::kOutOfBounds) return answer;
+  for (const Placed& placed : objects_) AddObject(*scene_, placed, p_W, answer);
+  return answer;
+}
+
+PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W) {
+  const VoxelMap& map = scene.static_map_W;
+  if (!scene.params.bounds_W.Contains(p_W) || !map.grid().Addressable(p_W)) {
     return {SpaceStatus::kOutOfBounds, kStaticLabel, std::nullopt};
   }
   PointOccupancy answer;
   const std::optional<LogOdds> value = map.Find(map.grid().KeyOf(p_W));
   if (value) answer.fused_log_odds = Dequantized(*value);
   answer.status = value ? SpaceStatus::kFree : SpaceStatus::kUnknownSpace;
-  if ((value && map.model().Occupied(*value)) || InKeepOut(scene_->params, p_W)) {
+  if ((value && map.model().Occupied(*value)) || InKeepOut(scene.params, p_W)) {
     answer.status = SpaceStatus::kOccupied;
   }
-  for (const Placed& placed : objects_) {
-    if (!placed.box_W.Contains(p_W)) continue;
-    const SpaceStatus status = ObjectSays(placed, scene_->params.solid, p_W, answer.fused_log_odds);
-    if (status == SpaceStatus::kFree || status <= answer.status) continue;
-    answer.status = status;
-    answer.object = placed.object->id;
-  }
   return answer;
+}
+
+void AddObject(const SceneSnapshot& scene, const SceneAtTime::Placed& placed,
+               const Eigen::Vector3d& p_W, PointOccupancy& answer) {
+  if (!placed.box_W.Contains(p_W)) return;
+  const SpaceStatus status = ObjectSays(placed, scene.params.solid, p_W, answer.fused_log_odds);
+  if (status == SpaceStatus::kFree || status <= answer.status) return;
+  answer.status = status;
+  answer.object = placed.object->id;
 }
 
 std::vector<PointOccupancy> OccupancyOf(const SceneSnapshot& scene,
                                         std::span<const Eigen::Vector3d> points_W,
                                         std::span<const Time> times) {
-  std::map<Time, SceneAtTime> placed;
   std::vector<PointOccupancy> answers;
+  if (points_W.empty()) return answers;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  TimedScene timed(scene, *first, *last);
   answers.reserve(points_W.size());
   for (std::size_t i = 0; i < points_W.size(); ++i) {
-    const Time t = times.size() == 1 ? times[0] : times[i];
-    answers.push_back(placed.try_emplace(t, scene, t).first->second.At(points_W[i]));
+    answers.push_back(timed.At(points_W[i], times[times.size() == 1 ? 0 : i]));
   }
   return answers;
 }

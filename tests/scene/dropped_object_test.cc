@@ -19,8 +19,11 @@ class DroppedObjectTest : public testing::Test {
   DroppedObjectTest() {
     SceneParams params;
     params.object_lifetime = std::chrono::seconds(2);
+    Begin(params, {});
+  }
+  // Object 3 stands before a wall that was seen first, so that the space about it is known free.
+  void Begin(const SceneParams& params, std::vector<ObjectMotion> motions) {
     dut_ = std::make_unique<SceneBuilder>(params, FrameLimits{}, pool_);
-    // The wall behind is seen first, so that the object later stands in space known free.
     Frame wall = FrameAt(0);
     for (double y = -1; y <= 1; y += 0.02) {
       for (double z = -1; z <= 1; z += 0.02) AddPoint(wall, kStaticLabel, {6, y, z});
@@ -28,6 +31,7 @@ class DroppedObjectTest : public testing::Test {
     EXPECT_TRUE(dut_->Apply(wall).ok());
     Frame object = FrameAt(1);
     AddObject(object, 3, Pose::Translation(3, 0, 0), BoxSurface({0.6, 0.6, 0.6}, 0.05));
+    object.motions = std::move(motions);
     EXPECT_TRUE(dut_->Apply(object).ok());
   }
   SpaceStatus StatusAt(const Eigen::Vector3d& p_W) {
@@ -64,16 +68,7 @@ TEST_F(DroppedObjectTest, NewRaysFreeItAgain) {
 TEST_F(DroppedObjectTest, SoIsTheSolidOfOneThatBeginsAnew) {
   SceneParams params;
   params.horizon = std::chrono::milliseconds(200);
-  dut_ = std::make_unique<SceneBuilder>(params, FrameLimits{}, pool_);
-  Frame wall = FrameAt(0);
-  for (double y = -1; y <= 1; y += 0.02) {
-    for (double z = -1; z <= 1; z += 0.02) AddPoint(wall, kStaticLabel, {6, y, z});
-  }
-  ASSERT_TRUE(dut_->Apply(wall).ok());
-  Frame object = FrameAt(1);
-  AddObject(object, 3, Pose::Translation(3, 0, 0), BoxSurface({0.6, 0.6, 0.6}, 0.05));
-  object.motions = {{3, Pose::Translation(0, 0.1, 0), At(0.9)}};
-  ASSERT_TRUE(dut_->Apply(object).ok());
+  Begin(params, {{3, Pose::Translation(0, 0.1, 0), At(0.9)}});
   Frame back = FrameAt(2);
   AddPoint(back, 3, {0, 4, 0});
   const auto report = dut_->Apply(back);

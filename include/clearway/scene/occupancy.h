@@ -30,6 +30,7 @@ class SceneAtTime {
     std::optional<double> beyond_horizon_radius_m;
     Aabb box_W;  // around the observed voxels, the solid, and the swept bound
   };
+  static Placed Place(const SceneSnapshot& scene, const MovingObject& object, Time t);
 
   SceneAtTime(const SceneSnapshot& scene, Time t);
 
@@ -46,6 +47,13 @@ class SceneAtTime {
   Time time_;
   std::vector<Placed> objects_;
 };
+
+// The two parts of what a scene says of a point: the static map with the scene's bounds and
+// keep-out zones, and then every object near the point in ascending order, if the point is within
+// bounds.
+PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W);
+void AddObject(const SceneSnapshot& scene, const SceneAtTime::Placed& placed,
+               const Eigen::Vector3d& p_W, PointOccupancy& answer);
 
 // One answer per point. times: one for all, or one per point.
 std::vector<PointOccupancy> OccupancyOf(const SceneSnapshot& scene,

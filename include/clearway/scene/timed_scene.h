@@ -1,0 +1,33 @@
+// Points at times of their own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "absl/container/flat_hash_map.h"
+#include "clearway/scene/object_index.h"
+#include "clearway/scene/occupancy.h"
+
+namespace clearway {
+
+// The occupancy of points at many times on one version: what SceneAtTime says, but an object is
+// placed at a time only for points that it may have reached. One thread. It must not outlive the
+// snapshot.
+class TimedScene {
+ public:
+  // For times in [first, last].
+  TimedScene(const SceneSnapshot& scene, Time first, Time last);
+
+  PointOccupancy At(const Eigen::Vector3d& p_W, Time time);
+
+ private:
+  const SceneAtTime::Placed& Placed(std::size_t object, Time time);
+
+  const SceneSnapshot& scene_;
+  ObjectIndex index_;
+  // By object and time, the ones asked for lately.
+  absl::flat_hash_map<std::pair<std::size_t, std::int64_t>, SceneAtTime::Placed> placed_;
+};
+
+}  // namespace clearway
