@@ -118,7 +118,8 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   const PathCheck check = CheckPath(**path, *QueryOf(**si));
   std::printf("%s: %zu states, %s on version %llu, %.0f %% of its volume unknown\n",
               settings.planner.c_str(), (*path)->getStateCount(), check.free ? "free" : "blocked",
-              static_cast<unsigned long long>(checker->version()), 100 * check.unknown_fraction);
+              static_cast<unsigned long long>(checker->version()),
+              100 * check.unknown_fraction.value_or(1));
   (*path)->interpolate(static_cast<unsigned int>(check.answers.size()));
   return TimedPoses(**path, mapping);
 }

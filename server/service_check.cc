@@ -41,7 +41,7 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
     if (!checker.ok()) return checker.status();
     absl::StatusOr<CheckReply> reply = (*checker)->Check(*states, *options, gone);
     if (!reply.ok()) return reply.status();
-    Write(*reply, options->clearance_up_to_m.has_value(), response);
+    Write(*reply, response);
     return absl::OkStatus();
   });
 }

@@ -108,6 +108,7 @@ absl::StatusOr<CheckOptions> CheckOptionsOf(const CheckFlags& flags, const Robot
   CheckOptions options;
   options.unknown = flags.unknown.policy;
   options.max_unknown_fraction = flags.unknown.max_fraction;
+  options.with_unknown_fraction = true;
   options.known_free_W = flags.known_free;
   options.padding_m = flags.padding_m;
   options.inflation_mps = flags.inflation_mps;

@@ -45,8 +45,8 @@ void PrintCheckJson(std::ostream& out, const CheckedStates& checked) {
                   {"world_from_base", ToJson(checked.T_W_R[i])},
                   {"status", ToJson(answer.status)},
                   {"link", free ? Json(nullptr) : Json(LinkName(checked.robot, answer.link))},
-                  {"object_id", free ? Json(nullptr) : Json(answer.object)},
-                  {"unknown_fraction", answer.unknown_fraction}};
+                  {"object_id", free ? Json(nullptr) : Json(answer.object)}};
+    if (answer.unknown_fraction) state["unknown_fraction"] = *answer.unknown_fraction;
     if (answer.clearance_m) state["clearance_m"] = *answer.clearance_m;
     states.push_back(std::move(state));
   }
@@ -72,7 +72,7 @@ void PrintCheckText(std::ostream& out, const CheckedStates& checked) {
     table.AddRow({Seconds(checked.batch.times[i]), Point(checked.T_W_R[i].translation),
                   Fixed(YawOf(checked.T_W_R[i]), 2), ToString(answer.status),
                   LinkName(checked.robot, answer.link), What(answer),
-                  Fixed(100 * answer.unknown_fraction, 1) + " %",
+                  answer.unknown_fraction ? Fixed(100 * *answer.unknown_fraction, 1) + " %" : "",
                   answer.clearance_m ? Fixed(*answer.clearance_m, 2) : ""});
   }
   out << table.ToString();

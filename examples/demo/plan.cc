@@ -97,7 +97,7 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
   return Plan{"RRT",
               inflation_mps,
               *std::move(poses),
-              check.unknown_fraction,
+              check.unknown_fraction.value_or(1),
               checker->version(),
               check.answers.size()};
 }

@@ -73,7 +73,7 @@ struct RemoteChecker::Impl {
       response = call();
     }
     if (!response.ok()) return response.status();
-    return ReadCheckReply(*response, end - begin, options.clearance_up_to_m.has_value());
+    return ReadCheckReply(*response, end - begin, options);
   }
 };
 

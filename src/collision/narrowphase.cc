@@ -155,6 +155,13 @@ bool PlacedShape::Contains(const Eigen::Vector3d& p_F) const {
   return clearway::Contains(geometry_->shape(), ToG(p_F));
 }
 
+std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector3d& p_F) const {
+  const Eigen::Vector3d p_G = ToG(p_F);
+  const std::optional<Eigen::Vector3d> nearest_G = NearestPoint(p_G, geometry_->shape());
+  if (!nearest_G) return std::nullopt;
+  return R_F_G_ * (p_G - *nearest_G);
+}
+
 // The gap along F's axes, or that along G's.
 double PlacedShape::LowerBound(const Aabb& box_F) const {
   const double in_F_m = BoxBoxDistance(box_F_, box_F);

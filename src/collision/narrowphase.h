@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "clearway/geometry/aabb.h"
@@ -48,6 +49,9 @@ class PlacedShape {
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
+  // The vector to p from the shape's nearest point, 0 inside; only of spheres, boxes, capsules and
+  // cylinders.
+  std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
   // A convex hull at T_F_H.

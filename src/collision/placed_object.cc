@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision/voxel_contact.h"
 #include "collision/voxel_distance.h"
 
 namespace clearway {
@@ -35,26 +36,35 @@ ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
   return hulls;
 }
 
-std::vector<PlacedObject> PlaceObjects(const SceneSnapshot& scene, const ObjectHulls& hulls, Time t,
-                                       const CheckOptions& options) {
-  std::vector<PlacedObject> placed;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const MovingObject& object = *scene.objects[i];
-    if (std::find(options.ignored_objects.begin(), options.ignored_objects.end(), object.id) !=
-        options.ignored_objects.end()) {
-      continue;
-    }
-    const PredictedPose predicted = PredictPose(object, t, scene.params.horizon);
-    if (object.solid->box_O.Empty() && !predicted.beyond_horizon_radius_m) continue;
-    PlacedObject& added = placed.emplace_back();
-    added.object = &object;
-    added.hull = hulls[i].get();
-    added.T_W_O = predicted.T_W_O;
-    added.T_O_W = Inverse(predicted.T_W_O);
-    added.ball_radius_m = predicted.beyond_horizon_radius_m;
-    added.margin_m = InflationOf(object, t, options);
-    added.box_W = PlacedBox(added);
+const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
+  wanted_.clear();
+  index_.ForEachNear(box_W, [&](std::size_t index) { wanted_.push_back(index); });
+  if (t == time_ && wanted_ == looked_at_) return placed_;
+  time_ = t;
+  looked_at_ = wanted_;
+  placed_.clear();
+  for (const std::size_t index : wanted_) {
+    if (auto placed = Place(index, t)) placed_.push_back(*std::move(placed));
   }
+  return placed_;
+}
+
+std::optional<PlacedObject> ObjectPlacer::Place(std::size_t index, Time t) const {
+  const MovingObject& object = *scene_.objects[index];
+  if (std::find(options_.ignored_objects.begin(), options_.ignored_objects.end(), object.id) !=
+      options_.ignored_objects.end()) {
+    return std::nullopt;
+  }
+  const PredictedPose predicted = PredictPose(object, t, scene_.params.horizon);
+  if (object.solid->box_O.Empty() && !predicted.beyond_horizon_radius_m) return std::nullopt;
+  PlacedObject placed;
+  placed.object = &object;
+  placed.hull = hulls_[index].get();
+  placed.T_W_O = predicted.T_W_O;
+  placed.T_O_W = Inverse(predicted.T_W_O);
+  placed.ball_radius_m = predicted.beyond_horizon_radius_m;
+  placed.margin_m = InflationOf(object, t, options_);
+  placed.box_W = PlacedBox(placed);
   return placed;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clearway/collision/state_checker.h"
+#include "clearway/scene/object_index.h"
 #include "collision/narrowphase.h"
 
 namespace clearway {
@@ -27,9 +28,34 @@ struct PlacedObject {
   Aabb box_W;                           // around the solid or ball, margin included
 };
 
-// Every object that can be touched at `t` and is not ignored, by ascending ids.
-std::vector<PlacedObject> PlaceObjects(const SceneSnapshot& scene, const ObjectHulls& hulls, Time t,
-                                       const CheckOptions& options);
+// Places the objects that a state may touch, each once for the states in a row that have the same
+// time. One thread. Refers to what it is made of.
+class ObjectPlacer {
+ public:
+  // For times in [first, last].
+  ObjectPlacer(const SceneSnapshot& scene, const ObjectHulls& hulls, const CheckOptions& options,
+               Time first, Time last)
+      : scene_(scene),
+        hulls_(hulls),
+        options_(options),
+        index_(scene, first, last, options.inflation_mps) {}
+
+  // The objects that may meet the box at `t` and are not ignored, by ascending ids, and perhaps a
+  // few others. Valid until the next call.
+  const std::vector<PlacedObject>& Near(const Aabb& box_W, Time t);
+
+ private:
+  std::optional<PlacedObject> Place(std::size_t index, Time t) const;
+
+  const SceneSnapshot& scene_;
+  const ObjectHulls& hulls_;
+  const CheckOptions& options_;
+  ObjectIndex index_;
+  Time time_;                        // of what follows
+  std::vector<std::size_t> wanted_;  // by the last call
+  std::vector<std::size_t> looked_at_;
+  std::vector<PlacedObject> placed_;  // those of looked_at_ that there are to touch
+};
 
 // Whether the shape (placed in W) is within padding_m of the object, the object's margin included.
 bool Touches(const PlacedObject& object, const PlacedShape& shape_W, double padding_m);

@@ -1,7 +1,6 @@
 #include "clearway/collision/scene_checker.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "collision/placed_object.h"
@@ -9,19 +8,6 @@
 #include "collision/validation.h"
 
 namespace clearway {
-namespace {
-
-// The states' indices by ascending time, so that objects are placed once for each.
-std::vector<std::size_t> OrderByTime(const std::vector<Time>& times) {
-  std::vector<std::size_t> order(times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
-  return order;
-}
-
-}  // namespace
-
 struct SceneChecker::Impl {
   ScenePtr scene;
   Robot robot;
@@ -48,16 +34,13 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
                                                             options.allowed_contacts.end());
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
-  std::vector<PlacedObject> objects;
+  if (states.times.empty()) return reply;
+  const auto [first, last] = std::minmax_element(states.times.begin(), states.times.end());
+  ObjectPlacer objects(*impl_->scene, impl_->hulls, options, *first, *last);
   const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
-  std::optional<Time> placed_at;
-  for (std::size_t s : OrderByTime(states.times)) {
-    if (placed_at != states.times[s]) {
-      placed_at = states.times[s];
-      objects = PlaceObjects(*impl_->scene, impl_->hulls, *placed_at, options);
-    }
-    const Pose* T_W_L = &states.T_W_L[s * impl_->geometry.size()];
-    reply.answers[s] = StateCheck(context, impl_->geometry, T_W_L).Answer();
+  StateCheck check(context, impl_->geometry);
+  for (std::size_t s = 0; s < states.times.size(); ++s) {
+    reply.answers[s] = check.Answer(states.times[s], &states.T_W_L[s * impl_->geometry.size()]);
     if (cancelled()) return absl::CancelledError("the check was cancelled");
   }
   return reply;

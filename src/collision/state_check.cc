@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision/unknown_share.h"
+#include "collision/voxel_contact.h"
 #include "collision/voxel_distance.h"
 
 namespace clearway {
@@ -18,18 +19,32 @@ RobotGeometry PrepareRobot(const Robot& robot) {
   return geometry;
 }
 
-StateCheck::StateCheck(const CheckContext& context, const RobotGeometry& robot, const Pose* T_W_L)
-    : context_(context) {
-  links_W_.resize(robot.size());
-  for (std::size_t link = 0; link < robot.size(); ++link) {
+void StateCheck::Place(const Pose* T_W_L) {
+  shapes_W_.clear();
+  first_shapes_.clear();
+  for (std::size_t link = 0; link < robot_.size(); ++link) {
+    first_shapes_.push_back(shapes_W_.size());
     const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
-    for (const LinkGeometry::Part& part : robot[link].parts) {
-      links_W_[link].emplace_back(part.geometry, T_W_link * part.T_L_G);
+    for (const LinkGeometry::Part& part : robot_[link].parts) {
+      shapes_W_.emplace_back(part.geometry, T_W_link * part.T_L_G);
     }
   }
+  first_shapes_.push_back(shapes_W_.size());
 }
 
-StateAnswer StateCheck::Answer() const {
+Aabb StateCheck::SearchedBox() const {
+  Aabb box_W;
+  for (const PlacedShape& shape : shapes_W_) box_W.Extend(shape.box_F());
+  return box_W.Padded(context_.options.padding_m + context_.options.clearance_up_to_m.value_or(0));
+}
+
+std::span<const PlacedShape> StateCheck::ShapesOf(int link) const {
+  return std::span(shapes_W_).subspan(first_shapes_[link],
+                                      first_shapes_[link + 1] - first_shapes_[link]);
+}
+
+StateAnswer StateCheck::Answer(Time time, const Pose* T_W_L) {
+  Place(T_W_L);
   StateAnswer answer;
   const auto conclude = [&](SpaceStatus status, const std::optional<Touch>& touch) {
     answer.status = status;
@@ -38,11 +53,12 @@ StateAnswer StateCheck::Answer() const {
   };
   if (const auto touch = OutOfBounds()) {
     conclude(SpaceStatus::kOutOfBounds, touch);
-    answer.unknown_fraction = 1;
+    if (context_.options.NeedsUnknownFraction()) answer.unknown_fraction = 1;
     if (context_.options.clearance_up_to_m) answer.clearance_m = 0;
     return answer;
   }
-  answer.unknown_fraction = UnknownShare();
+  objects_ = &context_.objects.Near(SearchedBox(), time);
+  if (context_.options.NeedsUnknownFraction()) answer.unknown_fraction = UnknownShare();
   if (const auto occupied = Occupied()) {
     conclude(SpaceStatus::kOccupied, occupied);
   } else if (const auto beyond = BeyondHorizon()) {
@@ -50,7 +66,7 @@ StateAnswer StateCheck::Answer() const {
   } else if (const auto unknown = Unobserved()) {
     conclude(SpaceStatus::kUnknownSpace, unknown);
   } else if (context_.options.unknown == UnknownPolicy::kTolerated &&
-             answer.unknown_fraction > context_.options.max_unknown_fraction) {
+             *answer.unknown_fraction > context_.options.max_unknown_fraction) {
     conclude(SpaceStatus::kUnknownSpace, Touch{0, kStaticLabel});
   } else {
     conclude(SpaceStatus::kFree, std::nullopt);
@@ -62,11 +78,11 @@ StateAnswer StateCheck::Answer() const {
 std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
   const Aabb& bounds = context_.scene.params.bounds_W;
   const VoxelGrid& grid = context_.scene.static_map_W.grid();
-  for (std::size_t link = 0; link < links_W_.size(); ++link) {
-    for (const PlacedShape& shape : links_W_[link]) {
+  for (int link = 0; link < links(); ++link) {
+    for (const PlacedShape& shape : ShapesOf(link)) {
       for (const Eigen::Vector3d& corner : {shape.box_F().min, shape.box_F().max}) {
         if (bounds.Contains(corner) && grid.Addressable(corner)) continue;
-        return Touch{static_cast<int>(link), kStaticLabel};
+        return Touch{link, kStaticLabel};
       }
     }
   }
@@ -74,9 +90,9 @@ std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
 }
 
 std::optional<StateCheck::Touch> StateCheck::Occupied() const {
-  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+  for (int link = 0; link < links(); ++link) {
     if (!Allowed(link, kStaticLabel) && TouchesStatic(link)) return Touch{link, kStaticLabel};
-    for (const PlacedObject& object : context_.objects) {
+    for (const PlacedObject& object : *objects_) {
       if (!object.ball_radius_m && TouchesObject(link, object)) {
         return Touch{link, object.object->id};
       }
@@ -86,8 +102,8 @@ std::optional<StateCheck::Touch> StateCheck::Occupied() const {
 }
 
 std::optional<StateCheck::Touch> StateCheck::BeyondHorizon() const {
-  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
-    for (const PlacedObject& object : context_.objects) {
+  for (int link = 0; link < links(); ++link) {
+    for (const PlacedObject& object : *objects_) {
       if (object.ball_radius_m && TouchesObject(link, object)) {
         return Touch{link, object.object->id};
       }
@@ -100,10 +116,10 @@ std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
   if (context_.options.unknown != UnknownPolicy::kBlocked) return std::nullopt;
   const VoxelMap& map = context_.scene.static_map_W;
   const double padding_m = context_.options.padding_m;
-  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
-    for (const PlacedShape& shape : links_W_[link]) {
-      if (DistanceToUnobserved(map, shape, context_.options.known_free_W, padding_m,
-                               context_.cancelled) <= padding_m) {
+  for (int link = 0; link < links(); ++link) {
+    for (const PlacedShape& shape : ShapesOf(link)) {
+      if (TouchesUnobserved(map, shape, context_.options.known_free_W, padding_m,
+                            context_.cancelled)) {
         return Touch{link, kStaticLabel};
       }
     }
@@ -113,9 +129,7 @@ std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
 
 double StateCheck::UnknownShare() const {
   std::vector<const PlacedShape*> shapes;
-  for (const auto& link : links_W_) {
-    for (const PlacedShape& shape : link) shapes.push_back(&shape);
-  }
+  for (const PlacedShape& shape : shapes_W_) shapes.push_back(&shape);
   return UnknownShareOf(context_.scene.static_map_W, context_.options.known_free_W, shapes,
                         context_.cancelled);
 }
@@ -125,12 +139,12 @@ double StateCheck::Clearance() const {
   const CheckOptions& options = context_.options;
   const double padding_m = options.padding_m;
   double nearest_m = *options.clearance_up_to_m + padding_m;
-  for (int link = 0; link < static_cast<int>(links_W_.size()); ++link) {
+  for (int link = 0; link < links(); ++link) {
     if (!Allowed(link, kStaticLabel)) {
       nearest_m = std::min(nearest_m, StaticDistance(link, nearest_m));
     }
-    for (const PlacedShape& shape : links_W_[link]) {
-      for (const PlacedObject& object : context_.objects) {
+    for (const PlacedShape& shape : ShapesOf(link)) {
+      for (const PlacedObject& object : *objects_) {
         if (Allowed(link, object.object->id)) continue;
         nearest_m = std::min(nearest_m, DistanceTo(object, shape, nearest_m));
       }
@@ -149,7 +163,7 @@ bool StateCheck::Allowed(int link, ObjectId object) const {
 
 bool StateCheck::TouchesStatic(int link) const {
   const double padding_m = context_.options.padding_m;
-  for (const PlacedShape& shape : links_W_[link]) {
+  for (const PlacedShape& shape : ShapesOf(link)) {
     for (const Aabb& box_W : context_.scene.params.keep_out_W) {
       if (shape.DistanceTo(box_W, padding_m) <= padding_m) return true;
     }
@@ -161,7 +175,7 @@ bool StateCheck::TouchesStatic(int link) const {
 bool StateCheck::TouchesObject(int link, const PlacedObject& object) const {
   if (Allowed(link, object.object->id)) return false;
   const double padding_m = context_.options.padding_m;
-  for (const PlacedShape& shape : links_W_[link]) {
+  for (const PlacedShape& shape : ShapesOf(link)) {
     if (!shape.box_F().Padded(padding_m).Intersects(object.box_W)) continue;
     if (Touches(object, shape, padding_m)) return true;
   }
@@ -170,7 +184,7 @@ bool StateCheck::TouchesObject(int link, const PlacedObject& object) const {
 
 double StateCheck::StaticDistance(int link, double up_to_m) const {
   double nearest_m = up_to_m;
-  for (const PlacedShape& shape : links_W_[link]) {
+  for (const PlacedShape& shape : ShapesOf(link)) {
     for (const Aabb& box_W : context_.scene.params.keep_out_W) {
       nearest_m = std::min(nearest_m, shape.DistanceTo(box_W, nearest_m));
     }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,29 +25,34 @@ struct LinkGeometry {
 using RobotGeometry = std::vector<LinkGeometry>;  // by link
 RobotGeometry PrepareRobot(const Robot& robot);
 
-// What all states of a time have in common. Refers to all of it.
+// What all states have in common. Refers to all of it.
 struct CheckContext {
   const SceneSnapshot& scene;
   const CheckOptions& options;
   const std::set<std::pair<int, ObjectId>>& allowed_contacts;
-  const std::vector<PlacedObject>& objects;
+  ObjectPlacer& objects;
   const Cancelled& cancelled;  // once true, answers mean nothing
 };
 
-// A state under check. Lives on one thread's stack.
+// Checks one state after the other. Lives on one thread's stack.
 class StateCheck {
  public:
-  // T_W_L: one pose per link.
-  StateCheck(const CheckContext& context, const RobotGeometry& robot, const Pose* T_W_L);
+  StateCheck(const CheckContext& context, const RobotGeometry& robot)
+      : context_(context), robot_(robot) {}
 
-  // The whole rule, in the order of precedence of SpaceStatus.
-  StateAnswer Answer() const;
+  // The whole rule, in the order of precedence of SpaceStatus. T_W_L: one pose per link.
+  StateAnswer Answer(Time time, const Pose* T_W_L);
 
  private:
   struct Touch {
     int link;
     ObjectId object;
   };
+
+  void Place(const Pose* T_W_L);
+  Aabb SearchedBox() const;  // what lies beyond does not matter to the answer
+  std::span<const PlacedShape> ShapesOf(int link) const;
+  int links() const { return static_cast<int>(robot_.size()); }
 
   std::optional<Touch> OutOfBounds() const;
   std::optional<Touch> Occupied() const;
@@ -61,7 +67,10 @@ class StateCheck {
   double StaticDistance(int link, double up_to_m) const;
 
   const CheckContext& context_;
-  std::vector<std::vector<PlacedShape>> links_W_;
+  const RobotGeometry& robot_;
+  std::vector<PlacedShape> shapes_W_;      // link by link
+  std::vector<std::size_t> first_shapes_;  // of each link, and the end
+  const std::vector<PlacedObject>* objects_ = nullptr;
 };
 
 }  // namespace clearway

@@ -27,18 +27,17 @@ Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
     };
     KeyRange keys;
     if (!KeysTouching(map.grid(), shapes[i]->box_F(), keys)) continue;
-    AnyBlock<true>(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
-                   [&](BlockKey block_key, const VoxelBlock* block) {
-                     const BlockMask unobserved = UnobservedVoxels::Of(block);
-                     MaskOfRange(block_key, keys).ForEach([&](int index) {
-                       const Eigen::Vector3d center =
-                           map.grid().CenterOf(VoxelAt(block_key, index));
-                       if (!shapes[i]->Contains(center) || counted_before(center)) return;
-                       ++count.all;
-                       count.unknown += unobserved.Test(index) && !InOneOf(known_free, center);
-                     });
-                     return cancelled();
-                   });
+    AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+             [&](BlockKey block_key, const VoxelBlock* block) {
+               const BlockMask unobserved = UnobservedIn(block);
+               MaskOfRange(block_key, keys).ForEach([&](int index) {
+                 const Eigen::Vector3d center = map.grid().CenterOf(VoxelAt(block_key, index));
+                 if (!shapes[i]->Contains(center) || counted_before(center)) return;
+                 ++count.all;
+                 count.unknown += unobserved.Test(index) && !InOneOf(known_free, center);
+               });
+               return cancelled();
+             });
   }
   return count;
 }

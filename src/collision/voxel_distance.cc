@@ -88,14 +88,6 @@ bool Covered(const std::vector<Aabb>& boxes, const Aabb& inner) {
 
 }  // namespace
 
-bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margin_m) {
-  KeyRange keys;
-  if (!KeysTouching(map.grid(), shape.box_F().Padded(margin_m), keys)) return false;
-  return AnyVoxel<OccupiedVoxels>(map, keys, [&](VoxelKey key) {
-    return shape.DistanceTo(map.grid().BoxOf(key), margin_m) <= margin_m;
-  });
-}
-
 // Blocks in the order of their distance, until the next one is farther than what was found.
 double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m) {
   KeyRange keys;
@@ -143,7 +135,7 @@ double DistanceToUnobserved(const VoxelMap& map, const PlacedShape& shape,
     const Cell cell = open.top();
     open.pop();
     if (cell.level == 0) {
-      SearchBlock(grid, cell.min, UnobservedVoxels::Of(map.blocks().Find(cell.min)), shape, counts,
+      SearchBlock(grid, cell.min, UnobservedIn(map.blocks().Find(cell.min)), shape, counts,
                   nearest_m);
       continue;
     }

@@ -9,9 +9,6 @@
 
 namespace clearway {
 
-// Whether an occupied voxel lies within margin_m of the shape, placed in the map's frame.
-bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margin_m);
-
 // The distance in metres to the nearest occupied voxel, or above up_to_m if there is none so near.
 double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m);
 

@@ -18,12 +18,13 @@ BlockMask MaskOfRange(BlockKey block, const KeyRange& keys) {
   const auto last = [](std::int32_t key, std::int32_t from) {
     return std::min(key - from, kBlockSize - 1);
   };
-  const int x0 = first(keys.min.x, base.x), x1 = last(keys.max.x, base.x);
-  std::uint64_t row = 0, plane = 0;
-  for (int x = x0; x <= x1; ++x) row |= std::uint64_t{1} << x;
-  for (int y = first(keys.min.y, base.y); y <= last(keys.max.y, base.y); ++y) {
-    plane |= row << (8 * y);
-  }
+  // Eight bits for the row along x, eight bytes for its copies along y.
+  const std::uint64_t row =
+      (0xffu >> (7 - last(keys.max.x, base.x))) & (0xffu << first(keys.min.x, base.x));
+  constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  const std::uint64_t plane = row * 0x0101'0101'0101'0101 &
+                              kAll >> 8 * (7 - last(keys.max.y, base.y)) &
+                              kAll << 8 * first(keys.min.y, base.y);
   BlockMask mask;
   for (int z = first(keys.min.z, base.z); z <= last(keys.max.z, base.z); ++z) {
     mask.words[z] = plane;

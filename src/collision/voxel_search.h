@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <vector>
 
@@ -30,56 +29,25 @@ inline bool InOneOf(const std::vector<Aabb>& boxes, const Eigen::Vector3d& p) {
 // The voxels of one block that lie in the range.
 BlockMask MaskOfRange(BlockKey block, const KeyRange& keys);
 
-// What of a block is searched for. A null block has never been observed.
-struct OccupiedVoxels {
-  static constexpr bool kInMissingBlocks = false;
-  static BlockMask Of(const VoxelBlock* block) { return block->occupied; }
-};
-struct UnobservedVoxels {
-  static constexpr bool kInMissingBlocks = true;
-  static BlockMask Of(const VoxelBlock* block) {
-    BlockMask all;
-    all.words.fill(~std::uint64_t{0});
-    return block == nullptr ? all : all.Subtract(block->observed);
-  }
-};
-
-// Calls visit(BlockKey, const VoxelBlock*) for the blocks in the range; with `kMissing` for those
-// that do not exist too. Stops when visit returns true; returns whether it did.
-template <bool kMissing, class Visit>
-bool AnyBlock(const BlockTree& blocks, BlockKey min, BlockKey max, Visit&& visit) {
-  bool found = false;
-  if constexpr (kMissing) {
-    for (BlockKey key{0, 0, min.z}; key.z <= max.z; ++key.z) {
-      for (key.y = min.y; key.y <= max.y; ++key.y) {
-        for (key.x = min.x; key.x <= max.x; ++key.x) {
-          if (visit(key, blocks.Find(key))) return true;
-        }
-      }
-    }
-  } else {
-    blocks.ForEachIn(min, max, [&](BlockKey key, const VoxelBlock& block) {
-      found = found || visit(key, &block);
-    });
-  }
-  return found;
+// The voxels of a block that were never observed. A null block has never been.
+inline BlockMask UnobservedIn(const VoxelBlock* block) {
+  BlockMask all;
+  all.words.fill(~std::uint64_t{0});
+  return block == nullptr ? all : all.Subtract(block->observed);
 }
 
-// Whether visit(VoxelKey) is true for any voxel of the kind in the range; stops at the first.
-template <class Kind, class Visit>
-bool AnyVoxel(const VoxelMap& map, const KeyRange& keys, Visit&& visit) {
-  return AnyBlock<Kind::kInMissingBlocks>(
-      map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
-      [&](BlockKey block_key, const VoxelBlock* block) {
-        const BlockMask kind = Kind::Of(block), in_range = MaskOfRange(block_key, keys);
-        for (int z = 0; z < kBlockSize; ++z) {
-          for (std::uint64_t word = kind.words[z] & in_range.words[z]; word != 0;
-               word &= word - 1) {
-            if (visit(VoxelAt(block_key, z * 64 + std::countr_zero(word)))) return true;
-          }
-        }
-        return false;
-      });
+// Calls visit(BlockKey, const VoxelBlock*) for the blocks in the range, those that do not exist
+// too. Stops when visit returns true; returns whether it did.
+template <class Visit>
+bool AnyBlock(const BlockTree& blocks, BlockKey min, BlockKey max, Visit&& visit) {
+  for (BlockKey key{0, 0, min.z}; key.z <= max.z; ++key.z) {
+    for (key.y = min.y; key.y <= max.y; ++key.y) {
+      for (key.x = min.x; key.x <= max.x; ++key.x) {
+        if (visit(key, blocks.Find(key))) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace clearway

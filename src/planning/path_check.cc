@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace clearway {
 namespace {
@@ -14,6 +15,16 @@ void AppendAnswers(const std::vector<StateAnswer>& answers, std::vector<Time> ti
   times.resize(answers.size(), end.ok() ? *end : Time());
   std::ranges::copy(times, std::back_inserter(check.times));
   std::ranges::copy(answers, std::back_inserter(check.answers));
+}
+
+// None unless every answer has one.
+std::optional<double> MeanUnknownFraction(const std::vector<StateAnswer>& answers) {
+  double sum = 0;
+  for (const StateAnswer& answer : answers) {
+    if (!answer.unknown_fraction) return std::nullopt;
+    sum += *answer.unknown_fraction;
+  }
+  return sum / static_cast<double>(answers.size());
 }
 
 }  // namespace
@@ -45,8 +56,7 @@ PathCheck CheckPath(const og::PathGeometric& path, const StateQuery& query) {
       check.answers, [](const StateAnswer& a) { return a.status != SpaceStatus::kFree; });
   check.free = blocked == check.answers.end();
   if (!check.free) check.first_blocked = blocked - check.answers.begin();
-  for (const StateAnswer& answer : check.answers) check.unknown_fraction += answer.unknown_fraction;
-  check.unknown_fraction /= static_cast<double>(check.answers.size());
+  check.unknown_fraction = MeanUnknownFraction(check.answers);
   return check;
 }
 

@@ -32,6 +32,7 @@ UnknownPolicy ReadPolicy(int proto, FieldReader& read) {
 void Write(const CheckOptions& options, v1::CheckOptions* proto) {
   proto->set_unknown_space(ToProto(options.unknown));
   proto->set_max_unknown_fraction(options.max_unknown_fraction);
+  proto->set_with_unknown_fraction(options.with_unknown_fraction);
   for (const Aabb& box : options.known_free_W) Write(box, proto->add_known_free_world());
   proto->set_padding_m(options.padding_m);
   proto->set_inflation_mps(options.inflation_mps);
@@ -57,6 +58,7 @@ absl::StatusOr<CheckOptions> ReadCheckOptions(const std::string& field,
   options.unknown = ReadPolicy(proto.unknown_space(), read);
   options.max_unknown_fraction =
       read.NotNegative("max_unknown_fraction", proto.max_unknown_fraction());
+  options.with_unknown_fraction = proto.with_unknown_fraction();
   for (int i = 0; i < proto.known_free_world_size() && read.ok(); ++i) {
     options.known_free_W.push_back(
         read.Box(absl::StrCat("known_free_world[", i, "]"), true, proto.known_free_world(i)));
@@ -100,22 +102,24 @@ absl::StatusOr<StateBatch> ReadStates(const v1::CheckStatesRequest& proto, std::
   return batch;
 }
 
-void Write(const CheckReply& reply, bool with_clearance, v1::CheckStatesResponse* proto) {
+void Write(const CheckReply& reply, v1::CheckStatesResponse* proto) {
   Write(Versioned{reply.version, reply.stamp}, proto->mutable_scene());
   for (const StateAnswer& answer : reply.answers) {
     proto->add_statuses(ToProto(answer.status));
     proto->add_links(answer.link);
     proto->add_object_ids(answer.object);
-    proto->add_unknown_fractions(answer.unknown_fraction);
-    if (with_clearance) proto->add_clearances_m(answer.clearance_m.value_or(0));
+    if (answer.unknown_fraction) proto->add_unknown_fractions(*answer.unknown_fraction);
+    if (answer.clearance_m) proto->add_clearances_m(*answer.clearance_m);
   }
 }
 
 absl::StatusOr<CheckReply> ReadCheckReply(const v1::CheckStatesResponse& proto, std::size_t states,
-                                          bool with_clearance) {
+                                          const CheckOptions& options) {
+  const bool with_unknown = options.NeedsUnknownFraction();
+  const bool with_clearance = options.clearance_up_to_m.has_value();
   const auto fits = [&](int size) { return static_cast<std::size_t>(size) == states; };
   if (!fits(proto.statuses_size()) || !fits(proto.links_size()) || !fits(proto.object_ids_size()) ||
-      !fits(proto.unknown_fractions_size()) ||
+      (with_unknown && !fits(proto.unknown_fractions_size())) ||
       (with_clearance && !fits(proto.clearances_m_size()))) {
     return absl::InternalError(absl::StrCat(
         "the server's reply does not have one answer for each of ", states, " states"));
@@ -130,7 +134,7 @@ absl::StatusOr<CheckReply> ReadCheckReply(const v1::CheckStatesResponse& proto, 
     answer.status = ReadSpaceStatus(proto.statuses(s));
     answer.link = proto.links(s);
     answer.object = proto.object_ids(s);
-    answer.unknown_fraction = proto.unknown_fractions(s);
+    if (with_unknown) answer.unknown_fraction = proto.unknown_fractions(s);
     if (with_clearance) answer.clearance_m = proto.clearances_m(s);
   }
   return reply;

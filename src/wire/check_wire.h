@@ -23,9 +23,9 @@ void WriteStates(const StateBatch& states, std::size_t links, std::size_t begin,
 absl::StatusOr<StateBatch> ReadStates(const v1::CheckStatesRequest& proto, std::size_t links,
                                       const ServerLimits& limits);
 
-void Write(const CheckReply& reply, bool with_clearance, v1::CheckStatesResponse* proto);
+void Write(const CheckReply& reply, v1::CheckStatesResponse* proto);
 // INTERNAL if the reply does not have `states` answers.
 absl::StatusOr<CheckReply> ReadCheckReply(const v1::CheckStatesResponse& proto, std::size_t states,
-                                          bool with_clearance);
+                                          const CheckOptions& options);
 
 }  // namespace clearway

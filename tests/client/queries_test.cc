@@ -208,6 +208,7 @@ TEST_F(QueriesTest, RemoteAndLocalChecksAgreeOnAMovingWorld) {
   }
   CheckOptions options;
   options.unknown = UnknownPolicy::kFree;
+  options.with_unknown_fraction = true;
   options.clearance_up_to_m = 1;
   const auto a = (*remote)->Check(states, options), b = local.Check(states, options);
   ASSERT_TRUE(a.ok() && b.ok()) << a.status() << b.status();

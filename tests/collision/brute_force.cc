@@ -54,7 +54,7 @@ struct Findings {
     result.unsure = unsure;
     StateAnswer& answer = result.answer;
     answer.status = SpaceStatus::kFree;
-    answer.unknown_fraction = unknown_share;
+    if (options.NeedsUnknownFraction()) answer.unknown_fraction = unknown_share;
     if (options.clearance_up_to_m) answer.clearance_m = nearest_m;
     if (!lowest.empty()) {
       answer.status = lowest.begin()->first;
@@ -66,7 +66,7 @@ struct Findings {
       answer.link = 0;
     }
     if (answer.status == SpaceStatus::kOutOfBounds) {
-      answer.unknown_fraction = 1;
+      if (options.NeedsUnknownFraction()) answer.unknown_fraction = 1;
       if (options.clearance_up_to_m) answer.clearance_m = 0;
     }
     return result;

@@ -30,6 +30,11 @@ class CheckerSuite : public ::testing::Test {
     options.unknown = UnknownPolicy::kFree;
     return options;
   }
+  static CheckOptions WithUnknownFraction() {
+    CheckOptions options;
+    options.with_unknown_fraction = true;
+    return options;
+  }
   // 4 m of known free space each way, with a wall of occupied voxels at x = 2 to 2.1 m.
   static TestWorld Room(SceneParams params = {}) {
     TestWorld world(std::move(params));

@@ -19,7 +19,7 @@ inline void ExpectSameAnswers(const CheckReply& a, const CheckReply& b) {
     EXPECT_EQ(a.answers[s].status, b.answers[s].status) << "state " << s;
     EXPECT_EQ(a.answers[s].link, b.answers[s].link) << "state " << s;
     EXPECT_EQ(a.answers[s].object, b.answers[s].object) << "state " << s;
-    EXPECT_DOUBLE_EQ(a.answers[s].unknown_fraction, b.answers[s].unknown_fraction);
+    EXPECT_EQ(a.answers[s].unknown_fraction, b.answers[s].unknown_fraction);
     ASSERT_EQ(a.answers[s].clearance_m.has_value(), b.answers[s].clearance_m.has_value());
     EXPECT_NEAR(a.answers[s].clearance_m.value_or(0), b.answers[s].clearance_m.value_or(0), 1e-9);
   }

@@ -29,7 +29,8 @@ TYPED_TEST_P(CheckerSuite, KnownFreeSpaceIsFree) {
   const auto dut = this->Make(this->Room(), this->Ball());
   const StateAnswer answer = this->Ask(*dut, At(0, 0, 0));
   ExpectAnswer(answer, SpaceStatus::kFree, -1, kStaticLabel);
-  EXPECT_EQ(answer.unknown_fraction, 0);
+  EXPECT_FALSE(answer.unknown_fraction.has_value());
+  EXPECT_EQ(this->Ask(*dut, At(0, 0, 0), this->WithUnknownFraction()).unknown_fraction, 0);
   EXPECT_FALSE(answer.clearance_m.has_value());
 }
 
@@ -41,10 +42,12 @@ TYPED_TEST_P(CheckerSuite, StaticVoxelsOccupy) {
 
 TYPED_TEST_P(CheckerSuite, UnknownIsNotFreeUnlessAskedFor) {
   const auto dut = this->Make(TestWorld(), this->Ball());
-  const StateAnswer blocked = this->Ask(*dut, At(0, 0, 0));
+  CheckOptions options = this->WithUnknownFraction();
+  const StateAnswer blocked = this->Ask(*dut, At(0, 0, 0), options);
   ExpectAnswer(blocked, SpaceStatus::kUnknownSpace, 0, kStaticLabel);
   EXPECT_EQ(blocked.unknown_fraction, 1);
-  const StateAnswer free = this->Ask(*dut, At(0, 0, 0), this->UnknownIsFree());
+  options.unknown = UnknownPolicy::kFree;
+  const StateAnswer free = this->Ask(*dut, At(0, 0, 0), options);
   ExpectAnswer(free, SpaceStatus::kFree, -1, kStaticLabel);
   EXPECT_EQ(free.unknown_fraction, 1);
 }
@@ -66,7 +69,7 @@ TYPED_TEST_P(CheckerSuite, UnknownIsToleratedUpToItsShare) {
   options.max_unknown_fraction = 0.25;
   const StateAnswer answer = this->Ask(*dut, At(0, 0, 0), options);
   ExpectAnswer(answer, SpaceStatus::kFree, -1, 0);
-  EXPECT_DOUBLE_EQ(answer.unknown_fraction, 0.25);
+  EXPECT_EQ(answer.unknown_fraction, 0.25);
   options.max_unknown_fraction = 0.24;
   ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kUnknownSpace, 0, 0);
 }
@@ -76,19 +79,19 @@ TYPED_TEST_P(CheckerSuite, LinksThatShareVoxelsCountThemOnce) {
   const Shape cube = Box{Eigen::Vector3d::Constant(0.398)};
   const auto dut = this->Make(world, {"two", {{"a", {{cube, Pose{}}}}, {"b", {{cube, Pose{}}}}}});
   const StateBatch state{{kTestStart}, {Pose{}, Pose::Translation(-0.1, 0, 0)}};
-  EXPECT_DOUBLE_EQ(this->Ask(*dut, state).unknown_fraction, 0.2);
+  EXPECT_EQ(this->Ask(*dut, state, this->WithUnknownFraction()).unknown_fraction, 0.2);
 }
 
 TYPED_TEST_P(CheckerSuite, ARobotThinnerThanAVoxelIsJudgedByItsCenter) {
   const TestWorld world = this->Room().Unknown({{0.1, -1, -1}, {0.2, 1, 1}});
   const auto dut = this->Make(world, this->Ball(0.01));
-  EXPECT_EQ(this->Ask(*dut, At(0.11, 0.01, 0.01)).unknown_fraction, 1);
-  EXPECT_EQ(this->Ask(*dut, At(0.08, 0.01, 0.01)).unknown_fraction, 0);
+  EXPECT_EQ(this->Ask(*dut, At(0.11, 0.01, 0.01), this->WithUnknownFraction()).unknown_fraction, 1);
+  EXPECT_EQ(this->Ask(*dut, At(0.08, 0.01, 0.01), this->WithUnknownFraction()).unknown_fraction, 0);
 }
 
 TYPED_TEST_P(CheckerSuite, RegionsDeclaredFreeHideUnknownSpaceButNoObstacle) {
   const auto dut = this->Make(TestWorld().Occupied({{2, -1, -1}, {2.1, 1, 1}}), this->Ball());
-  CheckOptions options;
+  CheckOptions options = this->WithUnknownFraction();
   options.known_free_W = {{{-1, -1, -1}, {3, 1, 1}}};
   const StateAnswer answer = this->Ask(*dut, At(0, 0, 0), options);
   ExpectAnswer(answer, SpaceStatus::kFree, -1, 0);
@@ -102,7 +105,7 @@ TYPED_TEST_P(CheckerSuite, LeavingTheBoundsComesFirst) {
   params.bounds_W = {{-3, -3, -3}, {3, 3, 3}};
   const auto dut =
       this->Make(this->Room(params).Occupied({{2.5, -1, -1}, {3, 1, 1}}), this->TwoBalls());
-  CheckOptions options;
+  CheckOptions options = this->WithUnknownFraction();
   options.clearance_up_to_m = 1;
   const StateAnswer answer = this->Ask(
       *dut, {{kTestStart}, {Pose::Translation(2.5, 0, 0), Pose::Translation(2.76, 0, 0)}}, options);

@@ -137,6 +137,7 @@ CheckOptions RandomWorld::Options(const Robot& robot) {
   CheckOptions options;
   options.unknown = static_cast<UnknownPolicy>(Below(3));
   options.max_unknown_fraction = Uniform(0, 0.5);
+  options.with_unknown_fraction = Below(2);
   if (Below(2)) {
     const Eigen::Vector3d corner = Point(kRegion);
     options.known_free_W = {{corner, corner + Eigen::Vector3d::Constant(0.8)}};

@@ -35,7 +35,9 @@ struct Tally {
     EXPECT_EQ(std::string(ToString(dut.status)), ToString(answer.status)) << where;
     EXPECT_EQ(dut.link, answer.link) << where;
     EXPECT_EQ(dut.object, answer.object) << where;
-    EXPECT_DOUBLE_EQ(dut.unknown_fraction, answer.unknown_fraction) << where;
+    ASSERT_EQ(dut.unknown_fraction.has_value(), answer.unknown_fraction.has_value()) << where;
+    EXPECT_DOUBLE_EQ(dut.unknown_fraction.value_or(0), answer.unknown_fraction.value_or(0))
+        << where;
     ASSERT_EQ(dut.clearance_m.has_value(), answer.clearance_m.has_value()) << where;
     EXPECT_NEAR(dut.clearance_m.value_or(0), answer.clearance_m.value_or(0), 1e-6) << where;
   }

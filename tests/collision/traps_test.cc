@@ -35,7 +35,10 @@ TEST(TrapsTest, OnlyVoxelsAtTheShapeAreLookedAt) {
   KeyRange keys;
   ASSERT_TRUE(KeysTouching(map.grid(), {{0.05, 0.05, 0.05}, {0.25, 0.15, 0.05}}, keys));
   int seen = 0;
-  AnyVoxel<OccupiedVoxels>(map, keys, [&](VoxelKey) { return ++seen, false; });
+  map.blocks().ForEachIn(
+      BlockOf(keys.min), BlockOf(keys.max), [&](BlockKey key, const VoxelBlock& block) {
+        MaskOfRange(key, keys).ForEach([&](int i) { seen += block.occupied.Test(i); });
+      });
   EXPECT_EQ(seen, 3 * 2 * 1);
 }
 

@@ -62,7 +62,7 @@ class DiscChecker : public StateChecker {
   long calls() const { return calls_; }
   long checked_states() const { return checked_states_; }
   // Share of the robot in unknown space, as told in every answer.
-  double unknown_fraction = 0;
+  std::optional<double> unknown_fraction;
 
  private:
   StateAnswer Answer(Time time, const Pose* T_W_L, const CheckOptions& options) const {

@@ -59,7 +59,7 @@ TEST_F(PathCheckTest, AFreePathIsFree) {
   EXPECT_EQ(dut.answers.size(), 1u + 120u + 200u);
   EXPECT_EQ(dut.times.front(), Time());
   EXPECT_EQ(dut.times.back(), TimeFromNanoseconds(8'000'000'000));
-  EXPECT_DOUBLE_EQ(dut.unknown_fraction, 0.25);
+  EXPECT_EQ(dut.unknown_fraction, 0.25);
 }
 
 TEST_F(PathCheckTest, ABlockedPathTellsWhere) {

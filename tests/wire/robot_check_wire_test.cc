@@ -82,6 +82,7 @@ TEST(CheckWire, OptionsComeBack) {
   CheckOptions options;
   options.unknown = UnknownPolicy::kTolerated;
   options.max_unknown_fraction = 0.25;
+  options.with_unknown_fraction = true;
   options.known_free_W = {{{0, 0, 0}, {1, 2, 3}}};
   options.padding_m = 0.1;
   options.inflation_mps = 0.2;
@@ -95,6 +96,7 @@ TEST(CheckWire, OptionsComeBack) {
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_EQ(dut->unknown, options.unknown);
   EXPECT_EQ(dut->max_unknown_fraction, 0.25);
+  EXPECT_TRUE(dut->with_unknown_fraction);
   EXPECT_EQ(dut->known_free_W, options.known_free_W);
   EXPECT_EQ(dut->padding_m, 0.1);
   EXPECT_EQ(dut->inflation_mps, 0.2);
@@ -149,8 +151,11 @@ TEST(CheckWire, RepliesComeBack) {
     reply.answers.push_back({status, -1, 7, 0.5, 0.25});
   }
   v1::CheckStatesResponse proto;
-  Write(reply, true, &proto);
-  const auto dut = ReadCheckReply(proto, 6, true);
+  Write(reply, &proto);
+  CheckOptions options;
+  options.with_unknown_fraction = true;
+  options.clearance_up_to_m = 1;
+  const auto dut = ReadCheckReply(proto, 6, options);
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_EQ(dut->version, 5u);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -164,9 +169,14 @@ TEST(CheckWire, RepliesComeBack) {
 
 TEST(CheckWire, AReplyOfTheWrongLengthIsNoAnswer) {
   v1::CheckStatesResponse proto;
-  Write(CheckReply{1, Time{}, {StateAnswer{}}}, false, &proto);
-  EXPECT_TRUE(absl::IsInternal(ReadCheckReply(proto, 2, false).status()));
-  EXPECT_TRUE(absl::IsInternal(ReadCheckReply(proto, 1, true).status()));
+  Write(CheckReply{1, Time{}, {StateAnswer{}}}, &proto);
+  EXPECT_TRUE(ReadCheckReply(proto, 1, {}).ok());
+  EXPECT_TRUE(absl::IsInternal(ReadCheckReply(proto, 2, {}).status()));
+  CheckOptions with_clearance, with_unknown;
+  with_clearance.clearance_up_to_m = 1;
+  EXPECT_TRUE(absl::IsInternal(ReadCheckReply(proto, 1, with_clearance).status()));
+  with_unknown.with_unknown_fraction = true;
+  EXPECT_TRUE(absl::IsInternal(ReadCheckReply(proto, 1, with_unknown).status()));
 }
 
 TEST(SceneWire, StatusesThatAreNotKnownAreNeverFree) {

@@ -35,6 +35,9 @@ struct CheckOptions {
   // For kTolerated: the share of the robot's volume that may be unknown. The volume is counted in
   // static voxels whose centre lies in the robot.
   double max_unknown_fraction = 0;
+  // Whether answers carry the share of unknown space whatever the policy; with kTolerated they do.
+  // It costs a look at every voxel of the robot.
+  bool with_unknown_fraction = false;
   // Voxels whose centre lies in one of these are not unknown (the robot's start, a blind zone); no
   // obstacle is hidden.
   std::vector<Aabb> known_free_W;
@@ -53,6 +56,10 @@ struct CheckOptions {
 
   // If set, also the clearance, searched up to this distance.
   std::optional<double> clearance_up_to_m;
+
+  bool NeedsUnknownFraction() const {
+    return with_unknown_fraction || unknown == UnknownPolicy::kTolerated;
+  }
 };
 
 // INVALID_ARGUMENT naming the field and the limit: lengths are at most 100 km, inflation 1 km/s,
@@ -65,9 +72,9 @@ struct StateAnswer {
   // -1 when the status is kFree.
   int link = -1;
   ObjectId object = kStaticLabel;
-  // Share of the robot's volume in unknown space, 0 to 1, whatever the policy; 1 out of bounds. A
-  // robot that holds no voxel's centre is judged by the voxels at its shapes' centres.
-  double unknown_fraction = 0;
+  // Share of the robot's volume in unknown space, 0 to 1; 1 out of bounds. A robot that holds no
+  // voxel's centre is judged by the voxels at its shapes' centres. Set when asked for.
+  std::optional<double> unknown_fraction;
   // Distance from the padded robot to whatever the policy blocks (not to the bounds), 0 in contact
   // and out of bounds, at most clearance_up_to_m; set when asked for.
   std::optional<double> clearance_m;

@@ -27,8 +27,8 @@ struct PathCheck {
   // The first answer that is not free.
   std::optional<std::size_t> first_blocked;
   // Mean share of the robot's volume in unknown space over all answers: how much unknown space the
-  // path crosses, whatever the policy.
-  double unknown_fraction = 0;
+  // path crosses. None if the query's options do not ask for it, or a motion could not be checked.
+  std::optional<double> unknown_fraction;
 };
 
 // Checks every motion of the path with one call of the checker. A motion that cannot be checked

@@ -1,0 +1,133 @@
+#include "collision/voxel_contact.h"
+
+#include <array>
+#include <bit>
+
+#include "collision/cube_contact.h"
+#include "collision/voxel_distance.h"
+
+namespace clearway {
+namespace {
+
+constexpr int kOctantSize = kBlockSize / 2;  // voxels along an edge of an eighth of a block
+
+// The voxels of octant x + 2 y + 4 z of a block.
+BlockMask MaskOfOctant(int octant) {
+  constexpr std::uint64_t kLowCorner = 0x0f0f0f0f;
+  const std::uint64_t plane = kLowCorner << 4 * (octant & 1) << 32 * (octant >> 1 & 1);
+  BlockMask mask;
+  for (int z = 0; z < kOctantSize; ++z) mask.words[kOctantSize * (octant >> 2) + z] = plane;
+  return mask;
+}
+
+const std::array<BlockMask, 8> kOctants = [] {
+  std::array<BlockMask, 8> masks;
+  for (int octant = 0; octant < 8; ++octant) masks[octant] = MaskOfOctant(octant);
+  return masks;
+}();
+
+// Asks from large to small: a block, its octants, their voxels.
+class Search {
+ public:
+  Search(const VoxelGrid& grid, const PlacedShape& shape, double margin_m)
+      : grid_(grid), shape_(shape), margin_m_(margin_m), contact_(shape, margin_m) {}
+
+  // Whether one of the block's voxels that are marked touches the shape.
+  bool Touches(BlockKey block, const BlockMask& voxels) const {
+    if (!voxels.Any()) return false;
+    const VoxelKey base = VoxelAt(block, 0);
+    if (Misses(base, kBlockSize)) return false;
+    for (int octant = 0; octant < 8; ++octant) {
+      BlockMask inside = kOctants[octant];
+      std::uint64_t any = 0;
+      for (int z = 0; z < kBlockSize; ++z) any |= inside.words[z] &= voxels.words[z];
+      if (any == 0) continue;
+      const VoxelKey corner{base.x + kOctantSize * (octant & 1),
+                            base.y + kOctantSize * (octant >> 1 & 1),
+                            base.z + kOctantSize * (octant >> 2)};
+      if (!Misses(corner, kOctantSize) && TouchesAny(block, inside)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool TouchesAny(BlockKey block, const BlockMask& voxels) const {
+    for (int z = 0; z < kBlockSize; ++z) {
+      for (std::uint64_t word = voxels.words[z]; word != 0; word &= word - 1) {
+        if (TouchesVoxel(VoxelAt(block, z * 64 + std::countr_zero(word)))) return true;
+      }
+    }
+    return false;
+  }
+
+  bool TouchesVoxel(VoxelKey key) const {
+    switch (contact_.Of(grid_.CenterOf(key), 0.5 * grid_.resolution_m())) {
+      case CubeContact::Answer::kNo:
+        return false;
+      case CubeContact::Answer::kYes:
+        return true;
+      case CubeContact::Answer::kOpen:
+        return shape_.DistanceTo(grid_.BoxOf(key), margin_m_) <= margin_m_;
+    }
+    return true;
+  }
+
+  // Surely none of the cube's voxels touches.
+  bool Misses(VoxelKey corner, int edge) const {
+    const double half_edge_m = 0.5 * edge * grid_.resolution_m();
+    const Eigen::Vector3d center =
+        grid_.resolution_m() * Eigen::Vector3d(corner.x, corner.y, corner.z) +
+        Eigen::Vector3d::Constant(half_edge_m);
+    return contact_.Of(center, half_edge_m) == CubeContact::Answer::kNo;
+  }
+
+  const VoxelGrid& grid_;
+  const PlacedShape& shape_;
+  double margin_m_;
+  CubeContact contact_;
+};
+
+}  // namespace
+
+bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margin_m) {
+  KeyRange keys;
+  if (!KeysTouching(map.grid(), shape.box_F().Padded(margin_m), keys)) return false;
+  const Search search(map.grid(), shape, margin_m);
+  return map.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
+                                    [&](BlockKey key, const VoxelBlock& block) {
+                                      BlockMask voxels = MaskOfRange(key, keys);
+                                      for (int z = 0; z < kBlockSize; ++z)
+                                        voxels.words[z] &= block.occupied.words[z];
+                                      return search.Touches(key, voxels);
+                                    });
+}
+
+bool TouchesUnobserved(const VoxelMap& map, const PlacedShape& shape,
+                       const std::vector<Aabb>& known_free, double margin_m,
+                       const Cancelled& cancelled) {
+  constexpr double kMostBlocks = 1 << 16;  // to be looked at one by one
+  KeyRange keys;
+  if (!KeysTouching(map.grid(), shape.box_F().Padded(margin_m), keys)) return false;
+  const BlockKey first = BlockOf(keys.min), last = BlockOf(keys.max);
+  if ((last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0) >
+      kMostBlocks) {
+    return DistanceToUnobserved(map, shape, known_free, margin_m, cancelled) <= margin_m;
+  }
+  const Search search(map.grid(), shape, margin_m);
+  return AnyBlock(map.blocks(), first, last, [&](BlockKey key, const VoxelBlock* block) {
+    BlockMask voxels = MaskOfRange(key, keys);
+    for (int z = 0; z < kBlockSize; ++z) {
+      if (block != nullptr) voxels.words[z] &= ~block->observed.words[z];
+    }
+    if (!known_free.empty() && voxels.Any()) {
+      if (cancelled()) return true;
+      const BlockMask candidates = voxels;
+      candidates.ForEach([&](int index) {
+        if (InOneOf(known_free, map.grid().CenterOf(VoxelAt(key, index)))) voxels.Clear(index);
+      });
+    }
+    return search.Touches(key, voxels);
+  });
+}
+
+}  // namespace clearway
