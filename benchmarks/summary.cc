@@ -6,7 +6,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace clearway::bench {
 namespace {
@@ -21,10 +23,19 @@ class MedianReporter : public benchmark::ConsoleReporter {
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       medians[run.run_name.function_name] =
           run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+      for (const auto& [name, counter] : run.counters) counters[name] = counter.value;
     }
   }
 
-  Medians medians;
+  // The median of a benchmark's time, or of a counter.
+  std::optional<double> Find(const std::string& name) const {
+    if (const auto time = medians.find(name); time != medians.end()) return time->second;
+    if (const auto counter = counters.find(name); counter != counters.end()) return counter->second;
+    return std::nullopt;
+  }
+
+  std::map<std::string, double> medians;  // of times, in ms, by the benchmarks' names
+  std::map<std::string, double> counters;
   bool failed = false;
 };
 
@@ -72,11 +83,14 @@ int Main(int argc, char** argv, const std::function<void(const Effort&)>& regist
   benchmark::RunSpecifiedBenchmarks(&reporter);
   nlohmann::json numbers = nlohmann::json::object();
   for (const Ratio& ratio : ratios) {
-    const auto over = reporter.medians.find(ratio.over);
-    const auto under = reporter.medians.find(ratio.under);
-    if (over == reporter.medians.end() || under == reporter.medians.end()) continue;
-    numbers[ratio.name] = over->second / under->second;
-    std::printf("%-40s %10.2f\n", ratio.name.c_str(), over->second / under->second);
+    const auto over = reporter.Find(ratio.over), under = reporter.Find(ratio.under);
+    if (!over || !under) continue;
+    numbers[ratio.name] = *over / *under;
+    std::printf("%-40s %10.2f\n", ratio.name.c_str(), *over / *under);
+  }
+  for (const auto& [name, value] : reporter.counters) {
+    numbers[name] = value;
+    std::printf("%-40s %10.3f\n", name.c_str(), value);
   }
   AddToSummary(flags.out, numbers);
   return reporter.failed ? 1 : 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -14,21 +13,19 @@ struct Effort {
   int repetitions() const { return quick ? 3 : 7; }
 };
 
-// A number of the summary that is made of others: the median times, in ms, of the benchmarks `over`
-// and `under`, divided.
+// A number of the summary that is made of two others, divided: the median times of benchmarks, or
+// the medians of their counters.
 struct Ratio {
   std::string name;
   std::string over;
   std::string under;
 };
 
-// Medians by the benchmarks' names, in ms.
-using Medians = std::map<std::string, double>;
-
 // Reads --quick and --out DIR (by default benchmarks/out in the source tree) and Google Benchmark's
 // own flags; calls `register_all`, runs the benchmarks in turn, prints them and the ratios, and
-// writes the ratios into DIR/summary.json, a flat object that keeps other programs' numbers.
-// Returns the program's exit code: 1 if a benchmark failed.
+// writes the ratios, and the medians of the benchmarks' own counters under the counters' names,
+// into DIR/summary.json, a flat object that keeps other programs' numbers. Returns the program's
+// exit code: 1 if a benchmark failed.
 int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
          const std::vector<Ratio>& ratios);
 

@@ -1,0 +1,165 @@
+// Robot states against the static map of a real drive, unknown space free, against FCL on an
+// fcl::OcTree of the same voxels: collision of four shapes at random poses of which half are free,
+// and clearance up to 2 m at free ones. Then what each further moving object costs.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "clearway/collision/scene_checker.h"
+#include "drive_map.h"
+#include "fcl_shapes.h"
+#include "summary.h"
+
+namespace clearway::bench {
+namespace {
+
+constexpr double kClearance_m = 2;
+
+struct Case {
+  std::shared_ptr<const FclChecker> fcl;
+  std::shared_ptr<const SceneChecker> checker;
+  StateBatch states;  // first those in contact, then as many free ones
+  std::size_t free_from = 0;
+  StateBatch Free(std::size_t count) const {
+    StateBatch free;
+    for (std::size_t i = free_from; i < std::min(states.times.size(), free_from + count); ++i) {
+      free.times.push_back(states.times[i]);
+      free.T_W_L.push_back(states.T_W_L[i]);
+    }
+    return free;
+  }
+};
+
+Case MakeCase(const DriveMap& drive, const Shape& shape, std::size_t count) {
+  Case made;
+  made.fcl = std::make_shared<FclChecker>(shape, drive.tree);
+  made.checker = std::make_shared<SceneChecker>(drive.scene, Robot::SingleShape("robot", shape));
+  Dice dice;
+  std::vector<Pose> contact, free;
+  while (contact.size() < count / 2 || free.size() < count / 2) {
+    const Pose pose{dice.Rotation(), dice.PointIn(drive.box_W)};
+    auto& kind = made.fcl->Collides(pose) ? contact : free;
+    if (kind.size() < count / 2) kind.push_back(pose);
+  }
+  made.free_from = contact.size();
+  made.states.T_W_L = std::move(contact);
+  made.states.T_W_L.insert(made.states.T_W_L.end(), free.begin(), free.end());
+  made.states.times.assign(made.states.T_W_L.size(), drive.scene->stamp);
+  return made;
+}
+
+CheckOptions UnknownIsFree() {
+  CheckOptions options;
+  options.unknown = UnknownPolicy::kFree;
+  return options;
+}
+
+// Sets how many answers differ from FCL's.
+void Collide(benchmark::State& state, const std::string& name, const Case& c) {
+  std::vector<StateAnswer> answers;
+  for (auto _ : state) answers = c.checker->Check(c.states, UnknownIsFree())->answers;
+  double differing = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    differing += (answers[i].status == SpaceStatus::kFree) != (i >= c.free_from);
+  }
+  state.counters["collide_" + name + "_differing"] = differing;
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * answers.size()));
+}
+
+void FclCollide(benchmark::State& state, const Case& c) {
+  for (auto _ : state) {
+    int contacts = 0;
+    for (const Pose& pose : c.states.T_W_L) contacts += c.fcl->Collides(pose);
+    benchmark::DoNotOptimize(contacts);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * c.states.times.size()));
+}
+
+// Sets the largest difference from FCL's distance, where that is below 2 m.
+void Clearance(benchmark::State& state, const Case& c, std::size_t count) {
+  const StateBatch free = c.Free(count);
+  CheckOptions options = UnknownIsFree();
+  options.clearance_up_to_m = kClearance_m;
+  std::vector<StateAnswer> answers;
+  for (auto _ : state) answers = c.checker->Check(free, options)->answers;
+  double error_m = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double expected_m = std::min(kClearance_m, c.fcl->Distance(free.T_W_L[i]));
+    error_m = std::max(error_m, std::abs(*answers[i].clearance_m - expected_m));
+  }
+  state.counters["clearance_error_m"] = error_m;
+}
+
+void FclClearance(benchmark::State& state, const Case& c, std::size_t count) {
+  const StateBatch free = c.Free(count);
+  for (auto _ : state) {
+    double sum_m = 0;
+    for (const Pose& pose : free.T_W_L) sum_m += c.fcl->Distance(pose);
+    benchmark::DoNotOptimize(sum_m);
+  }
+}
+
+// What each of a crowd of moving objects adds to the check of a free state; every state has a time
+// of its own within 5 s. Sets the counter.
+void Crowd(benchmark::State& state, const Case& c, const DriveMap& drive, const ScenePtr& crowded,
+           const std::string& counter) {
+  using Clock = std::chrono::steady_clock;
+  const SceneChecker alone(drive.scene, c.checker->robot());
+  const SceneChecker with_objects(crowded, c.checker->robot());
+  StateBatch states = c.Free(1000);
+  for (std::size_t i = 0; i < states.times.size(); ++i) {
+    states.times[i] = crowded->stamp + std::chrono::milliseconds(5 * i);
+  }
+  std::chrono::duration<double, std::nano> added(0);
+  for (auto _ : state) {
+    const auto start = Clock::now();
+    benchmark::DoNotOptimize(alone.Check(states, UnknownIsFree()));
+    const auto middle = Clock::now();
+    benchmark::DoNotOptimize(with_objects.Check(states, UnknownIsFree()));
+    added += (Clock::now() - middle) - (middle - start);
+  }
+  const double checks = static_cast<double>(state.iterations() * states.times.size());
+  state.counters[counter] = added.count() / checks / static_cast<double>(crowded->objects.size());
+}
+
+void Register(const Effort& effort) {
+  const DriveMap drive = MakeDriveMap(effort.quick ? 5 : 20);
+  const auto add = [&](const std::string& name, const auto& run) {
+    benchmark::RegisterBenchmark(name.c_str(), run)
+        ->Unit(benchmark::kMillisecond)
+        ->Repetitions(effort.repetitions())
+        ->ReportAggregatesOnly();
+  };
+  for (const auto& [name, shape] : BenchShapes()) {
+    const bool mesh = name == "mesh";
+    const auto c = std::make_shared<Case>(MakeCase(drive, shape, mesh ? 400 : 10'000));
+    add("fcl_" + name, [=](auto& state) { FclCollide(state, *c); });
+    add("clearway_" + name, [=, name = name](auto& state) { Collide(state, name, *c); });
+    if (name == "sphere") {
+      const double beside_m = drive.scene->static_map_W.ObservedBox().max.x() + 60;
+      const auto add_crowd = [&](const std::string& counter, const Eigen::Vector3d& center_W) {
+        const ScenePtr crowded = WithObjects(*drive.scene, 64, center_W);
+        add(counter, [=](auto& state) { Crowd(state, *c, drive, crowded, counter); });
+      };
+      add_crowd("collide_culled_ns_per_object", {beside_m, 0, 0});
+      add_crowd("collide_among_ns_per_object", drive.box_W.Center());
+    }
+    if (name != "box") continue;
+    const std::size_t count = effort.quick ? 100 : 500;
+    add("fcl_clearance", [=](auto& state) { FclClearance(state, *c, count); });
+    add("clearway_clearance", [=](auto& state) { Clearance(state, *c, count); });
+  }
+}
+
+}  // namespace
+}  // namespace clearway::bench
+
+int main(int argc, char** argv) {
+  return clearway::bench::Main(argc, argv, clearway::bench::Register,
+                               {{"collide_box_vs_fcl_x", "fcl_box", "clearway_box"},
+                                {"collide_sphere_vs_fcl_x", "fcl_sphere", "clearway_sphere"},
+                                {"collide_capsule_vs_fcl_x", "fcl_capsule", "clearway_capsule"},
+                                {"collide_mesh_vs_fcl_x", "fcl_mesh", "clearway_mesh"},
+                                {"clearance_vs_fcl_x", "fcl_clearance", "clearway_clearance"}});
+}

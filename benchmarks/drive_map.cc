@@ -1,0 +1,80 @@
+#include "drive_map.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "clearway/io/octomap_file.h"
+#include "clearway/scene/scene_builder.h"
+#include "recorded_scans.h"
+
+namespace clearway::bench {
+namespace {
+
+ScenePtr Integrate(const std::vector<Frame>& scans) {
+  ThreadPool pool(1);
+  SceneParams params;
+  params.resolution_m = 0.1;
+  params.rays = {50, false};
+  SceneBuilder builder(params, {}, pool);
+  for (const Frame& scan : scans) {
+    if (!builder.Apply(scan).ok()) std::abort();
+  }
+  return builder.Publish();
+}
+
+std::shared_ptr<octomap::OcTree> ToOctomap(const VoxelMap& map) {
+  const auto bytes = SerializeOctomap(map, OctomapFormat::kFull);
+  if (!bytes.ok()) std::abort();
+  std::istringstream stream(*bytes);
+  std::shared_ptr<octomap::OcTree> tree(
+      dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
+  if (tree == nullptr) std::abort();
+  tree->prune();
+  return tree;
+}
+
+}  // namespace
+
+ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W) {
+  ThreadPool pool(1);
+  SceneBuilder builder(scene.params, {}, pool);
+  const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (const double ahead_s : {-0.1, 0.0}) {
+    Frame frame;
+    frame.sequence = ahead_s < 0 ? 1 : 2;
+    frame.stamp = scene.stamp + FromSeconds(ahead_s);
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector3d velocity_W(std::cos(i), std::sin(i), 0);
+      const Eigen::Vector3d middle_W =
+          center_W + ahead_s * velocity_W +
+          5.0 * Eigen::Vector3d(i % side - side / 2, i / side - side / 2, 0);
+      for (int corner = 0; corner < 8; ++corner) {
+        const Eigen::Vector3d offset(corner & 1, corner >> 1 & 1, corner >> 2);
+        frame.points_S.push_back((middle_W + 2 * offset).cast<float>());
+        frame.labels.push_back(i + 1);
+      }
+      if (ahead_s < 0) continue;
+      const Pose H_W{Eigen::Quaterniond::Identity(), 0.1 * velocity_W};
+      frame.motions.push_back({i + 1, H_W, frame.stamp - FromSeconds(0.1)});
+    }
+    if (!builder.Apply(frame).ok()) std::abort();
+  }
+  auto with = std::make_shared<SceneSnapshot>(scene);
+  with->objects = builder.Publish()->objects;
+  return with;
+}
+
+DriveMap MakeDriveMap(std::size_t scans) {
+  const std::vector<Frame> frames = WholeScans(scans);
+  DriveMap drive;
+  drive.scene = Integrate(frames);
+  drive.tree = ToOctomap(drive.scene->static_map_W);
+  const Eigen::Vector3d center_W = frames.front().T_W_S.translation;
+  drive.box_W = drive.scene->static_map_W.ObservedBox();
+  drive.box_W.min = drive.box_W.min.cwiseMax(center_W - Eigen::Vector3d(20, 20, 2.5));
+  drive.box_W.max = drive.box_W.max.cwiseMin(center_W + Eigen::Vector3d(20, 20, 2.5));
+  return drive;
+}
+
+}  // namespace clearway::bench

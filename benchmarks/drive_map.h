@@ -1,0 +1,46 @@
+// The map that queries are measured on, once as ours and once as OctoMap's.
+#pragma once
+
+#include <octomap/OcTree.h>
+
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "clearway/scene/scene_snapshot.h"
+
+namespace clearway::bench {
+
+// The static map of the first `scans` whole scans (see WholeScans), voxels of 0.1 m, range 50 m,
+// and the same voxels in a pruned OctoMap.
+struct DriveMap {
+  ScenePtr scene;
+  std::shared_ptr<octomap::OcTree> tree;
+  Aabb box_W;  // around what is observed within 20 m of the first scan
+};
+DriveMap MakeDriveMap(std::size_t scans);
+
+// The scene with `count` moving objects of 2 x 2 x 2 m besides, in a square around `center_W` and 5
+// m apart; each goes its own way at 1 m/s.
+ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W);
+
+class Dice {
+ public:
+  double Uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  Eigen::Vector3d PointIn(const Aabb& box) {
+    const double x = Uniform(box.min.x(), box.max.x()), y = Uniform(box.min.y(), box.max.y());
+    return {x, y, Uniform(box.min.z(), box.max.z())};
+  }
+  Eigen::Quaterniond Rotation() {
+    const double w = normal_(engine_), x = normal_(engine_), y = normal_(engine_);
+    return Eigen::Quaterniond(w, x, y, normal_(engine_)).normalized();
+  }
+
+ private:
+  std::mt19937_64 engine_{1};
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace clearway::bench
