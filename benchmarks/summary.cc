@@ -21,10 +21,12 @@ class MedianReporter : public benchmark::ConsoleReporter {
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       medians[run.run_name.function_name] =
           run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
+      for (const auto& [name, counter] : run.counters) counters[name] = counter.value;
     }
   }
 
   Medians medians;
+  std::map<std::string, double> counters;
   bool failed = false;
 };
 
@@ -77,6 +79,10 @@ int Main(int argc, char** argv, const std::function<void(const Effort&)>& regist
     if (over == reporter.medians.end() || under == reporter.medians.end()) continue;
     numbers[ratio.name] = over->second / under->second;
     std::printf("%-40s %10.2f\n", ratio.name.c_str(), over->second / under->second);
+  }
+  for (const auto& [name, value] : reporter.counters) {
+    numbers[name] = value;
+    std::printf("%-40s %10.3f\n", name.c_str(), value);
   }
   AddToSummary(flags.out, numbers);
   return reporter.failed ? 1 : 0;

@@ -27,8 +27,9 @@ using Medians = std::map<std::string, double>;
 
 // Reads --quick and --out DIR (by default benchmarks/out in the source tree) and Google Benchmark's
 // own flags; calls `register_all`, runs the benchmarks in turn, prints them and the ratios, and
-// writes the ratios into DIR/summary.json, a flat object that keeps other programs' numbers.
-// Returns the program's exit code: 1 if a benchmark failed.
+// writes the ratios, and the medians of the benchmarks' own counters under the counters' names,
+// into DIR/summary.json, a flat object that keeps other programs' numbers. Returns the program's
+// exit code: 1 if a benchmark failed.
 int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
          const std::vector<Ratio>& ratios);
 

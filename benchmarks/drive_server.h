@@ -1,0 +1,50 @@
+// A server in this process that has seen a real drive.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "clearway/scene/frame.h"
+#include "load/questions.h"
+#include "server/core.h"
+#include "server/server.h"
+
+namespace clearway::bench {
+
+// The whole scans of the drive kitti0000_full with its labelled objects and their poses (the
+// simulator's street without the recordings, and it says so), again and again: forth, back, forth.
+// One thread.
+class Drive {
+ public:
+  // At most `length` different scans.
+  explicit Drive(std::size_t length);
+  // 0.1 s after the one before.
+  Frame Next();
+
+ private:
+  std::vector<Frame> frames_;
+  std::size_t next_ = 0;
+};
+
+// What the drive is mapped with: voxels of 0.1 m, range 50 m.
+SceneParams DriveParams();
+
+// On a free port of loopback. One thread.
+class DriveServer {
+ public:
+  // Applies the first `scans`; `threads` apply frames.
+  explicit DriveServer(std::size_t scans, int threads = 0);
+
+  Server& server() { return *server_; }
+  const std::string& address() const { return server_->address(); }
+  ScenePtr Newest() { return server_->core().versions.Newest(); }
+  Drive& drive() { return drive_; }
+  // All of the static map, from now to 2 s later, in steps.
+  QuestionSpace Space();
+
+ private:
+  Drive drive_;
+  std::unique_ptr<Server> server_;
+};
+
+}  // namespace clearway::bench
