@@ -63,10 +63,12 @@ DriveServer::DriveServer(std::size_t scans, int threads) : drive_(scans) {
   config.threads = threads;
   config.scene = DriveParams();
   server_ = OrAbort(Server::Start(config));
-  for (std::size_t i = 0; i < scans; ++i) {
-    const auto ticket = OrAbort(server_->core().ingestor.Push(drive_.Next()));
-    OrAbort(Ingestor::Wait(ticket, [] { return false; }));
-  }
+  for (std::size_t i = 0; i < scans; ++i) Apply();
+}
+
+std::uint64_t DriveServer::Apply() {
+  const auto ticket = OrAbort(server_->core().ingestor.Push(drive_.Next()));
+  return OrAbort(ticket.answer.get()).version;
 }
 
 QuestionSpace DriveServer::Space() {
@@ -75,6 +77,13 @@ QuestionSpace DriveServer::Space() {
   space.box_W = BoxAroundBlocks(scene->static_map_W);
   space.from = scene->stamp;
   space.span = std::chrono::seconds(2);
+  return space;
+}
+
+QuestionSpace DriveServer::GroundSpace() {
+  QuestionSpace space = Space();
+  space.box_W.min = space.box_W.min.cwiseMax(Eigen::Vector3d(-30, -30, -2));
+  space.box_W.max = space.box_W.max.cwiseMin(Eigen::Vector3d(30, 30, 1));
   return space;
 }
 

@@ -34,13 +34,18 @@ class DriveServer {
  public:
   // Applies the first `scans`; `threads` apply frames.
   explicit DriveServer(std::size_t scans, int threads = 0);
+  DriveServer(const DriveServer&) = delete;
 
   Server& server() { return *server_; }
   const std::string& address() const { return server_->address(); }
   ScenePtr Newest() { return server_->core().versions.Newest(); }
   Drive& drive() { return drive_; }
+  // Applies the drive's next scan; the version that it is in.
+  std::uint64_t Apply();
   // All of the static map, from now to 2 s later, in steps.
   QuestionSpace Space();
+  // The part where robots drive: 30 m around the start, up to 1 m above the sensor.
+  QuestionSpace GroundSpace();
 
  private:
   Drive drive_;

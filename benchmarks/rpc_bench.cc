@@ -53,12 +53,8 @@ void Points(benchmark::State& state, Setting& setting, Duration step) {
   }
 }
 
-// A box-shaped robot at random in the lower part of the map.
-Caller StatesCall(const Setting& setting, const QuestionSpace& whole, std::size_t states,
-                  std::uint64_t seed) {
-  QuestionSpace space = whole;
-  space.box_W.min = space.box_W.min.cwiseMax(Eigen::Vector3d(-30, -30, -2));
-  space.box_W.max = space.box_W.max.cwiseMin(Eigen::Vector3d(30, 30, 1));
+// A box-shaped robot at random near the ground.
+Caller StatesCall(Setting& setting, std::size_t states, std::uint64_t seed) {
   auto connection = Connection::Open(setting.served.address());
   if (!connection.ok()) return [status = connection.status()] { return status; };
   auto checker = RemoteChecker::Pin(*connection, Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
@@ -66,7 +62,7 @@ Caller StatesCall(const Setting& setting, const QuestionSpace& whole, std::size_
   CheckOptions options;
   options.unknown = UnknownPolicy::kFree;
   std::vector<StateBatch> batches;
-  RandomQuestions questions(space, seed);
+  RandomQuestions questions(setting.served.GroundSpace(), seed);
   for (int i = 0; i < 8; ++i) batches.push_back(questions.States(states, {Pose{}}));
   return [checker = std::shared_ptr<RemoteChecker>(*std::move(checker)), options, batches,
           next = std::size_t{0}]() mutable {
@@ -75,7 +71,7 @@ Caller StatesCall(const Setting& setting, const QuestionSpace& whole, std::size_
 }
 
 void OneState(benchmark::State& state, Setting& setting) {
-  const std::vector<Caller> ours = {StatesCall(setting, setting.served.Space(), 1, 1)};
+  const std::vector<Caller> ours = {StatesCall(setting, 1, 1)};
   const std::vector<Caller> empty = {EmptyCall(setting.echo.address())};
   for (auto _ : state) {
     const double empty_ms = Measure(state, empty, setting.turn).LatencyMs(0.5);
@@ -88,7 +84,7 @@ void OneState(benchmark::State& state, Setting& setting) {
 void States(benchmark::State& state, Setting& setting) {
   std::vector<Caller> callers;
   for (int i = 0; i < setting.callers; ++i) {
-    callers.push_back(StatesCall(setting, setting.served.Space(), kStates, i));
+    callers.push_back(StatesCall(setting, kStates, i));
   }
   for (auto _ : state) {
     state.counters["rpc_states_per_s"] =
