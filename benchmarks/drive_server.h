@@ -39,7 +39,6 @@ class DriveServer {
   Server& server() { return *server_; }
   const std::string& address() const { return server_->address(); }
   ScenePtr Newest() { return server_->core().versions.Newest(); }
-  Drive& drive() { return drive_; }
   // Applies the drive's next scan; the version that it is in.
   std::uint64_t Apply();
   // All of the static map, from now to 2 s later, in steps.

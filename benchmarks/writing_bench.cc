@@ -1,16 +1,17 @@
 // Latency of queries while scans of a real drive arrive at 10 Hz, against the same queries beside a
-// thread that burns as much processor time without touching the scene. The two take turns.
+// thread that burns as much processor time without touching the scene. The two take turns. Server,
+// sensor and client are three processes.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <thread>
 
-#include "clearway/client/frame_sender.h"
-#include "drive_server.h"
+#include "clearway/client/scene_client.h"
+#include "clients/server_process.h"
 #include "rpc_calls.h"
+#include "scan_process.h"
 #include "summary.h"
 
 namespace clearway::bench {
@@ -19,99 +20,95 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kPoints = 1'000;
+constexpr int kScans = 20;  // of the drive, that the map is made of
 constexpr std::chrono::milliseconds kPeriod(100);
 
-// Calls `work` each 0.1 s on a thread of its own, or as soon as it can if that takes longer.
-class Ticker {
+double SecondsOf(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Processor time that a process has taken.
+double ProcessSeconds(pid_t pid) {
+  clockid_t clock{};
+  if (clock_getcpuclockid(pid, &clock) != 0) std::abort();
+  return SecondsOf(clock);
+}
+
+// A thread that takes so much processor time in each 0.1 s, or all it can get if that is more.
+class Burner {
  public:
-  explicit Ticker(std::function<void()> work) : work_(std::move(work)) {}
-  ~Ticker() {
+  explicit Burner(double seconds) : seconds_(seconds) {}
+  ~Burner() {
     stop_ = true;
     thread_.join();
   }
-  int ticks() const { return ticks_; }
 
  private:
   void Run() {
     Clock::time_point next = Clock::now();
     while (!stop_) {
-      work_();
-      ++ticks_;
+      const double end = SecondsOf(CLOCK_THREAD_CPUTIME_ID) + seconds_;
+      while (!stop_ && SecondsOf(CLOCK_THREAD_CPUTIME_ID) < end) {
+        // About a millisecond between two system calls: the writer makes few.
+        for (int i = 0; i < 2'000'000; ++i) benchmark::DoNotOptimize(i);
+      }
       next = std::max(next + kPeriod, Clock::now());
       std::this_thread::sleep_until(next);
     }
   }
 
-  std::function<void()> work_;
+  const double seconds_;
   std::atomic<bool> stop_ = false;
-  std::atomic<int> ticks_ = 0;
   std::thread thread_{[this] { Run(); }};
 };
 
-double ThreadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double ProcessSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-void Burn(double seconds) {
-  const double end = ThreadSeconds() + seconds;
-  while (ThreadSeconds() < end) {
-    for (int i = 0; i < 10'000; ++i) benchmark::DoNotOptimize(i);
-  }
-}
-
-struct Setting {
+class Setting {
+ public:
   explicit Setting(const Effort& effort)
-      : served(effort.quick ? 6 : 20, 1),
-        turn(std::chrono::seconds(effort.quick ? 2 : 5)),
-        sender(*Connection::Open(served.address())) {}
-
-  void Write() {
-    if (!sender.Push(served.drive().Next()).ok()) std::abort();
+      : scans_(kScans), turn_(std::chrono::seconds(effort.quick ? 2 : 5)) {
+    scans_.Connect(server_.address());
+    scans_.Push(kScans);
   }
 
-  DriveServer served;
-  Duration turn;  // of one side
-  FrameSender sender;
+  ScanProcess& scans() { return scans_; }
+
+  // Batches whose times stay ahead of the scans that arrive meanwhile.
+  LoadReport Ask() {
+    const auto scene = SceneClient(*Connection::Open(server_.address())).GetStatus();
+    const QuestionSpace space{scene->static_box_W, scene->stamp + turn_, std::chrono::seconds(2)};
+    auto report = RunLoad({PointsCall(server_.address(), space, kPoints, 1)}, turn_);
+    if (!report.ok()) std::abort();
+    return *std::move(report);
+  }
+
+  // Processor time that one scan takes, the sensor's part included.
+  double SecondsPerScan() {
+    const double begin = Spent();
+    scans_.Push(5);
+    return (Spent() - begin) / 5;
+  }
+
+ private:
+  double Spent() const { return ProcessSeconds(server_.pid()) + ProcessSeconds(scans_.pid()); }
+
+  ScanProcess scans_;  // forks before there are threads
+  ServerProcess server_{{"--threads", "1", "--scene-max-range-m", "50"}};
+  Duration turn_;  // of one side
 };
-
-// Batches whose times stay ahead of the scans that arrive meanwhile.
-LoadReport Ask(Setting& setting) {
-  QuestionSpace space = setting.served.Space();
-  space.from += setting.turn;
-  auto report = RunLoad({PointsCall(setting.served.address(), space, kPoints, 1)}, setting.turn);
-  if (!report.ok()) std::abort();
-  return *std::move(report);
-}
-
-// Processor time that one scan takes, the client's part included.
-double SecondsPerScan(Setting& setting) {
-  const double begin = ProcessSeconds();
-  constexpr int kScans = 5;
-  for (int i = 0; i < kScans; ++i) setting.Write();
-  return (ProcessSeconds() - begin) / kScans;
-}
 
 void Writing(benchmark::State& state, Setting& setting) {
   for (auto _ : state) {
-    const double seconds_per_scan = SecondsPerScan(setting);
-    LoadReport burning, writing;
+    const double seconds_per_scan = setting.SecondsPerScan();
+    LoadReport burning;
     {
-      const Ticker burner([&] { Burn(seconds_per_scan); });
-      burning = Ask(setting);
+      const Burner burner(seconds_per_scan);
+      burning = setting.Ask();
     }
-    {
-      const Ticker writer([&] { setting.Write(); });
-      writing = Ask(setting);
-      state.counters["writing_scans_per_s"] = writer.ticks() / writing.seconds;
-    }
+    setting.scans().Start();
+    const LoadReport writing = setting.Ask();
+    state.counters["writing_scans_per_s"] = setting.scans().Stop() / writing.seconds;
     state.counters["query_p99_while_writing_x"] = writing.LatencyMs(0.99) / burning.LatencyMs(0.99);
     state.counters["query_p50_while_writing_x"] = writing.LatencyMs(0.5) / burning.LatencyMs(0.5);
     state.counters["query_p99_while_writing_ms"] = writing.LatencyMs(0.99);
