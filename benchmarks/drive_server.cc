@@ -12,7 +12,7 @@ namespace clearway::bench {
 namespace {
 
 constexpr Duration kPeriod = std::chrono::milliseconds(100);
-constexpr std::size_t kLongest = 20;
+constexpr std::size_t kScans = 20;
 
 template <class T>
 T OrAbort(absl::StatusOr<T> result) {
@@ -33,9 +33,9 @@ FrameSource Source() {
 
 }  // namespace
 
-Drive::Drive(std::size_t length) {
+Drive::Drive() {
   const FrameSource source = Source();
-  for (std::size_t i = 0; i < std::min({length, kLongest, source.frame_count}); ++i) {
+  for (std::size_t i = 0; i < std::min(kScans, source.frame_count); ++i) {
     frames_.push_back(OrAbort(source.read(i)));
     frames_.back().motions.clear();
   }
@@ -57,10 +57,9 @@ SceneParams DriveParams() {
   return params;
 }
 
-DriveServer::DriveServer(std::size_t scans, int threads) : drive_(scans) {
+DriveServer::DriveServer(std::size_t scans) {
   ServerConfig config;
   config.listen = "127.0.0.1:0";
-  config.threads = threads;
   config.scene = DriveParams();
   server_ = OrAbort(Server::Start(config));
   for (std::size_t i = 0; i < scans; ++i) Apply();

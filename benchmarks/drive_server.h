@@ -13,11 +13,10 @@ namespace clearway::bench {
 
 // The whole scans of the drive kitti0000_full with its labelled objects and their poses (the
 // simulator's street without the recordings, and it says so), again and again: forth, back, forth.
-// One thread.
+// A value.
 class Drive {
  public:
-  // At most `length` different scans.
-  explicit Drive(std::size_t length);
+  Drive();
   // 0.1 s after the one before.
   Frame Next();
 
@@ -32,8 +31,8 @@ SceneParams DriveParams();
 // On a free port of loopback. One thread.
 class DriveServer {
  public:
-  // Applies the first `scans`; `threads` apply frames.
-  explicit DriveServer(std::size_t scans, int threads = 0);
+  // Applies the first `scans`.
+  explicit DriveServer(std::size_t scans);
   DriveServer(const DriveServer&) = delete;
 
   Server& server() { return *server_; }

@@ -51,11 +51,10 @@ FollowCost FollowOnce(const SceneSnapshot& before, const SceneSnapshot& next) {
 }
 
 // Each scan's delta, but for the first few scans: they fill an empty map.
-void Deltas(benchmark::State& state, std::size_t scans) {
+void Deltas(benchmark::State& state, Drive drive, std::size_t scans) {
   constexpr std::size_t kFirst = 3;
   ThreadPool pool(1);
   for (auto _ : state) {
-    Drive drive(scans);
     SceneBuilder builder(DriveParams(), {}, pool);
     ScenePtr before;
     FollowCost sum;
@@ -132,7 +131,7 @@ void Register(const Effort& effort) {
         ->ReportAggregatesOnly();
   };
   using State = benchmark::State;
-  add("deltas", [=](State& s) { Deltas(s, scans); });
+  add("deltas", [=, drive = Drive()](State& s) { Deltas(s, drive, scans); });
   add("lag", [=](State& s) { Lag(s, scans); });
   add("checks", [=](State& s) { Checks(s, *served, turn); });
 }

@@ -69,7 +69,7 @@ void Serve(Drive drive, int in, int out) {
 
 }  // namespace
 
-ScanProcess::ScanProcess(std::size_t length) {
+ScanProcess::ScanProcess() {
   std::array<int, 2> down{}, up{};
   Must(pipe2(down.data(), O_CLOEXEC) == 0 && pipe2(up.data(), O_CLOEXEC) == 0);
   pid_ = fork();
@@ -77,7 +77,7 @@ ScanProcess::ScanProcess(std::size_t length) {
   if (pid_ == 0) {
     close(down[1]);
     close(up[0]);
-    Serve(Drive(length), down[0], up[1]);
+    Serve(Drive(), down[0], up[1]);
     _exit(0);
   }
   close(down[0]);

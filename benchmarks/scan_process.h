@@ -11,8 +11,8 @@ namespace clearway::bench {
 // its threads nor its sockets. One thread.
 class ScanProcess {
  public:
-  // Forks; to be made before any thread. The first `length` scans, forth and back.
-  explicit ScanProcess(std::size_t length);
+  // Forks; to be made before any thread.
+  ScanProcess();
   ~ScanProcess();
   ScanProcess(const ScanProcess&) = delete;
   ScanProcess& operator=(const ScanProcess&) = delete;

@@ -20,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kPoints = 1'000;
-constexpr int kScans = 20;  // of the drive, that the map is made of
 constexpr std::chrono::milliseconds kPeriod(100);
 
 double SecondsOf(clockid_t clock) {
@@ -66,10 +65,9 @@ class Burner {
 
 class Setting {
  public:
-  explicit Setting(const Effort& effort)
-      : scans_(kScans), turn_(std::chrono::seconds(effort.quick ? 2 : 5)) {
+  explicit Setting(const Effort& effort) : turn_(std::chrono::seconds(effort.quick ? 2 : 5)) {
     scans_.Connect(server_.address());
-    scans_.Push(kScans);
+    scans_.Push(effort.quick ? 6 : 20);
   }
 
   ScanProcess& scans() { return scans_; }
