@@ -76,7 +76,7 @@ void Deltas(benchmark::State& state, Drive drive, std::size_t scans) {
   }
 }
 
-// From the publication of a version to its appearance in a mirror, over loopback.
+// From the answer to an applied scan to its appearance in a mirror, over loopback.
 void Lag(benchmark::State& state, std::size_t scans) {
   DriveServer served(1);
   const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
