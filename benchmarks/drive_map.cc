@@ -43,6 +43,7 @@ ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3
   for (const double ahead_s : {-0.1, 0.0}) {
     Frame frame;
     frame.sequence = ahead_s < 0 ? 1 : 2;
+    frame.T_W_S.translation = center_W;
     frame.stamp = scene.stamp + FromSeconds(ahead_s);
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d velocity_W(std::cos(i), std::sin(i), 0);
@@ -51,7 +52,7 @@ ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3
           5.0 * Eigen::Vector3d(i % side - side / 2, i / side - side / 2, 0);
       for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3d offset(corner & 1, corner >> 1 & 1, corner >> 2);
-        frame.points_S.push_back((middle_W + 2 * offset).cast<float>());
+        frame.points_S.push_back((middle_W - center_W + 2 * offset).cast<float>());
         frame.labels.push_back(i + 1);
       }
       if (ahead_s < 0) continue;

@@ -62,14 +62,15 @@ void Clearway(benchmark::State& state, const DriveMap& drive, const Points& poin
 
 // Random points at 64 times of the next 5 s.
 void Statuses(benchmark::State& state, const SceneSnapshot& scene, const Points& points_W) {
+  std::vector<Time> times;
+  for (std::size_t i = 0; i < points_W.size(); ++i) {
+    times.push_back(scene.stamp + std::chrono::milliseconds(i % 64 * 78));
+  }
+  std::vector<PointOccupancy> answers(points_W.size());
   for (auto _ : state) {
     TimedScene timed(scene, scene.stamp, scene.stamp + FromSeconds(5));
-    std::int64_t occupied = 0;
-    for (std::size_t i = 0; i < points_W.size(); ++i) {
-      const Time time = scene.stamp + std::chrono::milliseconds(i % 64 * 78);
-      occupied += timed.At(points_W[i], time).status == SpaceStatus::kOccupied;
-    }
-    benchmark::DoNotOptimize(occupied);
+    timed.At(points_W, times, answers);
+    benchmark::DoNotOptimize(answers.data());
   }
 }
 

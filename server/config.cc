@@ -193,6 +193,8 @@ absl::Status Validate(const ServerConfig& config) {
                 absl::StrCat("\"", config.log_level, "\" is not a level")),
         Require(config.threads >= 0 && config.threads <= 256, "threads",
                 absl::StrCat("is ", config.threads, "; it must lie between 0 and 256")),
+        Require(config.writer_niceness >= 0 && config.writer_niceness <= 19, "writer_niceness",
+                absl::StrCat("is ", config.writer_niceness, "; it must lie between 0 and 19")),
         Require(config.kept_versions <= 10'000, "kept_versions",
                 absl::StrCat("is ", config.kept_versions, "; the limit is 10000")),
         ValidateLimits(config.limits)}) {

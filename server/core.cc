@@ -25,6 +25,7 @@ Ingestor::Options IngestorOptions(const ServerConfig& config) {
   options.max_remembered = config.limits.max_remembered_answers;
   const int machine = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.threads = config.threads > 0 ? config.threads : machine;
+  options.niceness = config.writer_niceness;
   return options;
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kMarkField = 536'870'911;  // protobuf's highest; no message of ours has it
 
+constexpr std::chrono::milliseconds kLook(1);  // between two questions whether the client has gone
+
 // Of this process, so that no client can know it.
 std::uint64_t MarkValue() {
   static const std::uint64_t value = std::random_device()();
@@ -28,11 +30,11 @@ grpc::Status ToGrpc(const absl::Status& status) {
 
 Gone GoneOf(const grpc::ServerContext* context) {
   using Clock = std::chrono::steady_clock;
-  return [context, gone = false, next_look = Clock::time_point()]() mutable {
+  return [context, gone = false, next_look = Clock::now() + kLook]() mutable {
     const Clock::time_point now = Clock::now();
     if (!gone && now >= next_look) {
       gone = context->IsCancelled();
-      next_look = now + std::chrono::milliseconds(1);
+      next_look = now + kLook;
     }
     return gone;
   };

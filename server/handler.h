@@ -17,8 +17,8 @@ namespace clearway {
 // With google.rpc details.
 grpc::Status ToGrpc(const absl::Status& status);
 
-// For one thread. Cheap enough to be called in inner loops: gRPC, whose answer takes a system call,
-// is asked once a millisecond.
+// For one thread. Cheap enough to be called in inner loops: gRPC, whose answer takes system calls
+// and may wait for another thread's, is asked once a millisecond, and not at all by shorter calls.
 Gone GoneOf(const grpc::ServerContext* context);
 
 absl::Status InternalFault(const char* name, const std::exception& exception);

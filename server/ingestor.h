@@ -53,6 +53,7 @@ class Ingestor {
     std::size_t max_queued = 32;
     std::size_t max_remembered = 10'000;
     int threads = 1;
+    int niceness = 0;  // of the threads that apply frames
   };
 
   // `versions` must outlive the ingestor. Publishes the empty scene.
@@ -92,6 +93,7 @@ class Ingestor {
   std::optional<Ticket> Remembered(const FrameName& name) const;
   void Remember(const FrameName& name, const Ticket& ticket);
   absl::StatusOr<Ticket> PushLocked(std::unique_lock<std::mutex>& lock, Frame frame);
+  void Yield();
   void Run();
   Answer Do(Job& job);
 

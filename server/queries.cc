@@ -1,9 +1,11 @@
 #include "server/queries.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/scene/timed_scene.h"
 #include "wire/status.h"
 
 namespace clearway {
@@ -11,27 +13,12 @@ namespace {
 
 constexpr std::size_t kItemsPerLook = 1024;  // between two looks at whether the client has gone
 
-// Scenes at the times of a question, each placed once.
-class TimeCache {
- public:
-  explicit TimeCache(const SceneSnapshot& scene) : scene_(scene) {}
-  const SceneAtTime& At(Time time) {
-    if (!last_ || last_->time() != time) last_.emplace(scene_, time);
-    return *last_;
-  }
-
- private:
-  const SceneSnapshot& scene_;
-  std::optional<SceneAtTime> last_;
-};
-
-// Calls ask(i, time) for each item, until the client has gone.
+// Calls ask(i) for each item, until the client has gone.
 template <class Ask>
-absl::Status ForEachItem(std::size_t items, std::span<const Time> times, const Gone& gone,
-                         Ask&& ask) {
+absl::Status ForEachItem(std::size_t items, const Gone& gone, Ask&& ask) {
   for (std::size_t i = 0; i < items; ++i) {
     if (i % kItemsPerLook == 0 && gone()) return absl::CancelledError("the client has gone");
-    ask(i, times[times.size() == 1 ? 0 : i]);
+    ask(i);
   }
   return absl::OkStatus();
 }
@@ -111,18 +98,30 @@ Aabb BoxAroundBlocks(const VoxelMap& map) {
   return box;
 }
 
-absl::StatusOr<PointAnswers> AskPoints(const SceneSnapshot& scene,
-                                       std::span<const Eigen::Vector3f> points_W,
-                                       std::span<const Time> times, const Gone& gone) {
-  PointAnswers answer{{scene.version, scene.stamp}, {}};
-  answer.points.reserve(points_W.size());
-  TimeCache cache(scene);
-  const absl::Status status =
-      ForEachItem(points_W.size(), times, gone, [&](std::size_t i, Time time) {
-        answer.points.push_back(cache.At(time).At(points_W[i].cast<double>()));
-      });
-  if (!status.ok()) return status;
-  return answer;
+absl::Status AskPoints(const SceneSnapshot& scene, Eigen::Map<const Eigen::Matrix3Xf> points_W,
+                       std::span<const std::int64_t> times_ns, const Gone& gone,
+                       const std::function<void(std::size_t, const PointOccupancy&)>& answer) {
+  if (points_W.cols() == 0) return absl::OkStatus();
+  const auto [first, last] = std::minmax_element(times_ns.begin(), times_ns.end());
+  TimedScene timed(scene, TimeFromNanoseconds(*first), TimeFromNanoseconds(*last));
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Time> times;
+  std::vector<PointOccupancy> answers;
+  const auto count = static_cast<std::size_t>(points_W.cols());
+  for (std::size_t begin = 0; begin < count; begin += kItemsPerLook) {
+    if (gone()) return absl::CancelledError("the client has gone");
+    const std::size_t size = std::min(kItemsPerLook, count - begin);
+    points.resize(size);
+    times.resize(size);
+    answers.resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      points[i] = points_W.col(begin + i).cast<double>();
+      times[i] = TimeFromNanoseconds(times_ns[times_ns.size() == 1 ? 0 : begin + i]);
+    }
+    timed.At(points, times, answers);
+    for (std::size_t i = 0; i < size; ++i) answer(begin + i, answers[i]);
+  }
+  return absl::OkStatus();
 }
 
 absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_W,
@@ -148,15 +147,14 @@ absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_
   for (Time time : times) {
     const SceneAtTime at(scene, time);
     BoxOccupancy::Counts& counts = answer.counts.emplace_back();
-    const auto ask = [&](std::size_t i, Time) {
+    const auto ask = [&](std::size_t i) {
       const Eigen::Vector3d cell(i % nx + range[0].first, i / nx % ny + range[1].first,
                                  i / nx / ny + range[2].first);
       const SpaceStatus status = at.At((cell.array() + 0.5) * answer.cell_m).status;
       Count(status, counts);
       if (include_cells) answer.cells.push_back(status);
     };
-    const Time one[] = {time};
-    if (auto status = ForEachItem(per_time, one, gone, ask); !status.ok()) return status;
+    if (auto status = ForEachItem(per_time, gone, ask); !status.ok()) return status;
   }
   return answer;
 }
@@ -174,16 +172,15 @@ absl::StatusOr<SliceOccupancy> AskSlice(const SceneSnapshot& scene, const SliceQ
   answer.rows = static_cast<std::uint32_t>(counts.y());
   for (Time time : times) {
     const SceneAtTime at(scene, time);
-    const auto ask = [&](std::size_t i, Time) {
+    const auto ask = [&](std::size_t i) {
       const Eigen::Vector2d cell(i % answer.columns + 0.5, i / answer.columns + 0.5);
       const Eigen::Vector2d p = slice.min_W + answer.cell_m * cell;
       const PointOccupancy point = at.At({p.x(), p.y(), slice.z_m});
       answer.cells.push_back(point.status);
       answer.objects.push_back(point.object);
     };
-    const Time one[] = {time};
     const std::size_t per_time = std::size_t{answer.columns} * answer.rows;
-    if (auto status = ForEachItem(per_time, one, gone, ask); !status.ok()) return status;
+    if (auto status = ForEachItem(per_time, gone, ask); !status.ok()) return status;
   }
   return answer;
 }
@@ -194,12 +191,13 @@ absl::StatusOr<RayAnswers> AskRays(const SceneSnapshot& scene,
                                    std::span<const Time> times, double max_range_m,
                                    const Gone& gone) {
   RayAnswers answer{{scene.version, scene.stamp}, {}};
-  TimeCache cache(scene);
+  std::optional<SceneAtTime> placed;  // at the last ray's time
   for (std::size_t i = 0; i < origins_W.size(); ++i) {
     if (gone()) return absl::CancelledError("the client has gone");
-    answer.rays.push_back(CastQueryRay(cache.At(times[times.size() == 1 ? 0 : i]),
-                                       origins_W[i].cast<double>(), directions_W[i].cast<double>(),
-                                       max_range_m));
+    const Time time = times[times.size() == 1 ? 0 : i];
+    if (!placed || placed->time() != time) placed.emplace(scene, time);
+    answer.rays.push_back(CastQueryRay(*placed, origins_W[i].cast<double>(),
+                                       directions_W[i].cast<double>(), max_range_m));
   }
   return answer;
 }

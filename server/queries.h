@@ -17,10 +17,11 @@ ObjectList DescribeObjects(const SceneSnapshot& scene);
 // Around the observed blocks: quicker than around the voxels.
 Aabb BoxAroundBlocks(const VoxelMap& map);
 
-// `times`: one for all, or one per point.
-absl::StatusOr<PointAnswers> AskPoints(const SceneSnapshot& scene,
-                                       std::span<const Eigen::Vector3f> points_W,
-                                       std::span<const Time> times, const Gone& gone);
+// A point in each column. `times_ns`: one for all, or one per point. Calls answer(i, occupancy) for
+// each point in turn.
+absl::Status AskPoints(const SceneSnapshot& scene, Eigen::Map<const Eigen::Matrix3Xf> points_W,
+                       std::span<const std::int64_t> times_ns, const Gone& gone,
+                       const std::function<void(std::size_t, const PointOccupancy&)>& answer);
 
 // RESOURCE_EXHAUSTED for more than `max_cells` cells over all times.
 absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_W,

@@ -29,13 +29,17 @@ grpc::Status OccupancyHandlers::GetPointOccupancy(grpc::ServerContext* context,
   return HandleQuery(
       core_, "GetPointOccupancy", context, *request,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
+        const int points = request->points_m_size() / 3;
         FieldReader read;
-        read.AtMost("points_m", request->points_m_size() / 3,
-                    core_.config.limits.max_points_per_query);
-        const auto points_W = read.Triples<float>("points_m", request->points_m(), true);
-        const auto times = read.Times("times_ns", request->times_ns(), points_W.size());
+        read.AtMost("points_m", points, core_.config.limits.max_points_per_query);
+        read.CheckTriples("points_m", request->points_m(), true);
+        read.CheckTimes("times_ns", request->times_ns(), points);
         if (!read.ok()) return read.status();
-        return Reply(AskPoints(scene, points_W, times, gone), response);
+        const Eigen::Map<const Eigen::Matrix3Xf> points_W(request->points_m().data(), 3, points);
+        const std::span times_ns(request->times_ns().data(), request->times_ns_size());
+        PointWriter writer(VersionOf(scene), points, response);
+        return AskPoints(scene, points_W, times_ns, gone,
+                         [&](std::size_t i, const PointOccupancy& point) { writer.Set(i, point); });
       });
 }
 

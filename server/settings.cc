@@ -127,6 +127,8 @@ std::vector<Setting> ServerSettings() {
       CLEARWAY_SETTING("tls_key", tls_key, "PEM file of its private key"),
       CLEARWAY_SETTING("log_level", log_level, "trace, debug, info, warning, error or off"),
       CLEARWAY_SETTING("threads", threads, "threads that apply frames; 0: as many as there are"),
+      CLEARWAY_SETTING("writer_niceness", writer_niceness,
+                       "how far answers come before frames on a busy machine: 0 to 19"),
       CLEARWAY_SETTING("kept_versions", kept_versions, "older versions kept for mirrors"),
   };
 }

@@ -29,6 +29,7 @@ void AddAllCommands(Cli& cli) {
   AddLoadPrior(cli);
   AddReset(cli);
   AddServerInfo(cli);
+  AddBench(cli);
 }
 
 // Help and version go to `out`, complaints to `err`.

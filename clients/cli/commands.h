@@ -19,5 +19,6 @@ void AddExport(Cli& cli);
 void AddLoadPrior(Cli& cli);
 void AddReset(Cli& cli);
 void AddServerInfo(Cli& cli);
+void AddBench(Cli& cli);
 
 }  // namespace clearway::cli

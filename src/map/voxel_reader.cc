@@ -1,13 +1,10 @@
 #include "clearway/map/voxel_reader.h"
 
-#include <algorithm>
-
 #include "map/multiversion.h"
 
 namespace clearway {
 namespace {
 
-constexpr std::size_t kAtOnce = 256;  // points: all that is known of them stays in the first cache
 constexpr VoxelBlock kUnobserved{};
 
 CLEARWAY_MULTIVERSION
@@ -24,11 +21,11 @@ void Take(const VoxelKey* keys, std::size_t count, std::uint64_t* block_numbers,
   }
 }
 
-VoxelState StateOf(const VoxelBlock& block, std::uint32_t index) {
+// The state without a branch.
+VoxelState StateOf(const VoxelBlock& block, int index) {
   static_assert(static_cast<int>(VoxelState::kFree) == 1);
   static_assert(static_cast<int>(VoxelState::kOccupied) == 2);
-  const int i = static_cast<int>(index);
-  return static_cast<VoxelState>(block.observed.Test(i) + block.occupied.Test(i));
+  return static_cast<VoxelState>(block.observed.Test(index) + block.occupied.Test(index));
 }
 
 }  // namespace
@@ -55,19 +52,19 @@ std::size_t VoxelReader::CutIntoRuns(std::size_t count) {
   return run + 1;
 }
 
+void VoxelReader::Locate(std::span<const Eigen::Vector3d> points) {
+  map_.grid().KeysOf(points, keys_.data());
+  Take(keys_.data(), points.size(), block_numbers_.data(), indices_.data());
+  const std::size_t runs = CutIntoRuns(points.size());
+  map_.blocks().FindAll(std::span(block_keys_).first(runs), blocks_.data());
+  std::replace(blocks_.begin(), blocks_.begin() + runs, static_cast<const VoxelBlock*>(nullptr),
+               &kUnobserved);
+}
+
 void VoxelReader::States(std::span<const Eigen::Vector3d> points, std::span<VoxelState> states) {
-  for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, points.size() - begin);
-    map_.grid().KeysOf(points.subspan(begin, count), keys_.data());
-    Take(keys_.data(), count, block_numbers_.data(), indices_.data());
-    const std::size_t runs = CutIntoRuns(count);
-    map_.blocks().FindAll(std::span(block_keys_).first(runs), blocks_.data());
-    std::replace(blocks_.begin(), blocks_.begin() + runs, static_cast<const VoxelBlock*>(nullptr),
-                 &kUnobserved);
-    for (std::size_t i = 0; i < count; ++i) {
-      states[begin + i] = StateOf(*blocks_[runs_[i]], indices_[i]);
-    }
-  }
+  ForEach(points, [&](std::size_t i, const VoxelBlock& block, int index) {
+    states[i] = StateOf(block, index);
+  });
 }
 
 }  // namespace clearway

@@ -60,22 +60,24 @@ SceneAtTime::SceneAtTime(const SceneSnapshot& scene, Time t) : scene_(&scene), t
 }
 
 PointOccupancy SceneAtTime::At(const Eigen::Vector3d& p_W) const {
-  PointOccupancy answer = StaticOccupancy(*scene_, p_W);
+  const VoxelMap& map = scene_->static_map_W;
+  PointOccupancy answer = StaticOccupancy(
+      *scene_, p_W, map.grid().Addressable(p_W) ? map.Find(map.grid().KeyOf(p_W)) : std::nullopt);
   if (answer.status == SpaceStatus::kOutOfBounds) return answer;
   for (const Placed& placed : objects_) AddObject(*scene_, placed, p_W, answer);
   return answer;
 }
 
-PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W) {
+PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W,
+                               std::optional<LogOdds> stored) {
   const VoxelMap& map = scene.static_map_W;
   if (!scene.params.bounds_W.Contains(p_W) || !map.grid().Addressable(p_W)) {
     return {SpaceStatus::kOutOfBounds, kStaticLabel, std::nullopt};
   }
   PointOccupancy answer;
-  const std::optional<LogOdds> value = map.Find(map.grid().KeyOf(p_W));
-  if (value) answer.fused_log_odds = Dequantized(*value);
-  answer.status = value ? SpaceStatus::kFree : SpaceStatus::kUnknownSpace;
-  if ((value && map.model().Occupied(*value)) || InKeepOut(scene.params, p_W)) {
+  if (stored) answer.fused_log_odds = Dequantized(*stored);
+  answer.status = stored ? SpaceStatus::kFree : SpaceStatus::kUnknownSpace;
+  if ((stored && map.model().Occupied(*stored)) || InKeepOut(scene.params, p_W)) {
     answer.status = SpaceStatus::kOccupied;
   }
   return answer;
@@ -93,14 +95,12 @@ void AddObject(const SceneSnapshot& scene, const SceneAtTime::Placed& placed,
 std::vector<PointOccupancy> OccupancyOf(const SceneSnapshot& scene,
                                         std::span<const Eigen::Vector3d> points_W,
                                         std::span<const Time> times) {
-  std::vector<PointOccupancy> answers;
+  std::vector<PointOccupancy> answers(points_W.size());
   if (points_W.empty()) return answers;
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
-  TimedScene timed(scene, *first, *last);
-  answers.reserve(points_W.size());
-  for (std::size_t i = 0; i < points_W.size(); ++i) {
-    answers.push_back(timed.At(points_W[i], times[times.size() == 1 ? 0 : i]));
-  }
+  std::vector<Time> each(times.begin(), times.end());
+  each.resize(points_W.size(), times[0]);
+  TimedScene(scene, *first, *last).At(points_W, each, answers);
   return answers;
 }
 

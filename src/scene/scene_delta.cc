@@ -1,6 +1,7 @@
 #include "clearway/scene/scene_delta.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 #include "absl/strings/str_cat.h"
@@ -10,9 +11,32 @@ namespace {
 
 constexpr VoxelBlock kEmptyBlock{};
 
-// What stands for a voxel in a delta.
+// The voxels with other log-odds, as bits.
+BlockMask OtherLogOdds(const VoxelBlock& before, const VoxelBlock& after) {
+  BlockMask other;
+  for (int z = 0; z < 8; ++z) {
+    const LogOdds* a = before.log_odds.data() + 64 * z;
+    const LogOdds* b = after.log_odds.data() + 64 * z;
+    if (std::memcmp(a, b, 64 * sizeof(LogOdds)) == 0) continue;
+    for (int i = 0; i < 64; ++i) other.words[z] |= std::uint64_t{a[i] != b[i]} << i;
+  }
+  return other;
+}
+
+// The voxels that differ. A voxel that was never observed has log-odds 0 and is not occupied.
+BlockMask Changed(const VoxelBlock& before, const VoxelBlock& after, MapDetail detail) {
+  BlockMask changed;
+  if (detail == MapDetail::kLogOdds) changed = OtherLogOdds(before, after);
+  for (int z = 0; z < 8; ++z) {
+    changed.words[z] |= before.observed.words[z] ^ after.observed.words[z];
+    changed.words[z] |= before.occupied.words[z] ^ after.occupied.words[z];
+  }
+  return changed;
+}
+
+// What stands for an observed voxel in a delta.
 LogOdds ValueOf(const VoxelBlock& block, int index, const OccupancyModel& model, MapDetail detail) {
-  if (detail == MapDetail::kLogOdds || !block.observed.Test(index)) return block.log_odds[index];
+  if (detail == MapDetail::kLogOdds) return block.log_odds[index];
   return block.occupied.Test(index) ? model.clamp_max : model.clamp_min;
 }
 
@@ -21,20 +45,13 @@ MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to, MapDetail detail) {
   const auto add = [&](BlockKey key, const VoxelBlock* before, const VoxelBlock* after) {
     if (before == nullptr) before = &kEmptyBlock;
     if (after == nullptr) after = &kEmptyBlock;
-    BlockDelta block{key, {}, {}, {}};
-    for (int i = 0; i < kVoxelsPerBlock; ++i) {
-      const bool observed = after->observed.Test(i);
-      const LogOdds value = ValueOf(*after, i, to.model(), detail);
-      if (observed == before->observed.Test(i) &&
-          value == ValueOf(*before, i, to.model(), detail)) {
-        continue;
-      }
-      block.changed.Set(i);
-      if (!observed) continue;
-      block.observed.Set(i);
-      block.log_odds.push_back(value);
-    }
-    if (block.changed.Any()) delta.push_back(std::move(block));
+    const BlockMask changed = Changed(*before, *after, detail);
+    if (!changed.Any()) return;
+    BlockDelta& block = delta.emplace_back(BlockDelta{key, changed, changed, {}});
+    for (int z = 0; z < 8; ++z) block.observed.words[z] &= after->observed.words[z];
+    block.log_odds.reserve(block.observed.Count());
+    block.observed.ForEach(
+        [&](int index) { block.log_odds.push_back(ValueOf(*after, index, to.model(), detail)); });
   };
   BlockTree::ForEachDifference(from.blocks(), to.blocks(), add);
   return delta;

@@ -1,5 +1,6 @@
 #include "wire/geometry_wire.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,10 @@ namespace {
 
 // Any finite position may be asked about; where limits matter, whoever uses the pose has its own.
 constexpr double kAnyCoordinate_m = std::numeric_limits<double>::max();
+
+// Differences of stamps must not overflow: 146 years either way.
+constexpr std::int64_t kLimit_ns = std::int64_t{1} << 62;
+bool BeyondLimit(std::int64_t ns) { return ns > kLimit_ns || ns < -kLimit_ns; }
 
 Eigen::Vector3d ToVector(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
 
@@ -76,10 +81,8 @@ double FieldReader::Positive(const std::string& field, double value) {
 }
 
 Time FieldReader::Stamp(const std::string& field, bool present, std::int64_t ns) {
-  // Differences of stamps must not overflow: 146 years either way.
-  constexpr std::int64_t kLimit_ns = std::int64_t{1} << 62;
   Require(present, field, "is missing");
-  if (ns > kLimit_ns || ns < -kLimit_ns) {
+  if (BeyondLimit(ns)) {
     Fail(field, absl::StrCat("is ", ns, "; the limit is ", kLimit_ns, " either way"));
   }
   return TimeFromNanoseconds(ok() ? ns : 0);
@@ -148,19 +151,27 @@ std::vector<Pose> FieldReader::Poses(const std::string& field, const v1::PoseArr
   return poses;
 }
 
-std::vector<Time> FieldReader::Times(const std::string& field,
-                                     const google::protobuf::RepeatedField<std::int64_t>& times_ns,
-                                     std::size_t items) {
-  std::vector<Time> times;
+void FieldReader::CheckTimes(const std::string& field,
+                             const google::protobuf::RepeatedField<std::int64_t>& times_ns,
+                             std::size_t items) {
   const std::size_t size = times_ns.size();
   if (size != items && size != 1) {
     Fail(field,
          absl::StrCat("has ", size, " entries; one is needed, or one per item (", items, ")"));
   }
-  times.reserve(size);
-  for (std::size_t i = 0; i < size && ok(); ++i) {
-    times.push_back(Stamp(absl::StrCat(field, "[", i, "]"), true, times_ns[i]));
-  }
+  const auto bad = std::find_if(times_ns.begin(), times_ns.end(), BeyondLimit);
+  if (bad == times_ns.end()) return;
+  Stamp(absl::StrCat(field, "[", bad - times_ns.begin(), "]"), true, *bad);
+}
+
+std::vector<Time> FieldReader::Times(const std::string& field,
+                                     const google::protobuf::RepeatedField<std::int64_t>& times_ns,
+                                     std::size_t items) {
+  std::vector<Time> times;
+  CheckTimes(field, times_ns, items);
+  if (!ok()) return times;
+  times.reserve(times_ns.size());
+  for (std::int64_t ns : times_ns) times.push_back(TimeFromNanoseconds(ns));
   return times;
 }
 

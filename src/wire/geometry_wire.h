@@ -1,6 +1,8 @@
 // Converters of geometry.proto, and the reader that all converters check their fields with.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,11 +49,15 @@ class FieldReader {
   Aabb Box(const std::string& field, bool present, const v1::AxisAlignedBox& proto);
   // Exactly `count` poses.
   std::vector<Pose> Poses(const std::string& field, const v1::PoseArray& proto, std::size_t count);
-  // A repeated field of triples; `what` may be NaN unless `finite`.
+  // A repeated field of triples, which may be NaN unless `finite`.
+  template <class Repeated>
+  void CheckTriples(const std::string& field, const Repeated& values, bool finite);
   template <class Scalar, class Repeated>
   std::vector<Eigen::Matrix<Scalar, 3, 1>> Triples(const std::string& field, const Repeated& values,
                                                    bool finite);
   // One for all or one per item; never none for a question that has items.
+  void CheckTimes(const std::string& field,
+                  const google::protobuf::RepeatedField<std::int64_t>& times_ns, std::size_t items);
   std::vector<Time> Times(const std::string& field,
                           const google::protobuf::RepeatedField<std::int64_t>& times_ns,
                           std::size_t items);
@@ -63,19 +69,26 @@ class FieldReader {
   absl::Status status_;
 };
 
+template <class Repeated>
+void FieldReader::CheckTriples(const std::string& field, const Repeated& values, bool finite) {
+  if (values.size() % 3 != 0) Fail(field, "its length is not a multiple of 3");
+  if (!ok() || !finite) return;
+  const auto bad =
+      std::find_if(values.begin(), values.end(), [](auto value) { return !std::isfinite(value); });
+  if (bad == values.end()) return;
+  const auto triple = (bad - values.begin()) / 3;
+  Fail(field + "[" + std::to_string(3 * triple) + "]", "is not finite");
+}
+
 template <class Scalar, class Repeated>
 std::vector<Eigen::Matrix<Scalar, 3, 1>> FieldReader::Triples(const std::string& field,
                                                               const Repeated& values, bool finite) {
   std::vector<Eigen::Matrix<Scalar, 3, 1>> triples;
-  if (values.size() % 3 != 0) Fail(field, "its length is not a multiple of 3");
+  CheckTriples(field, values, finite);
   if (!ok()) return triples;
   triples.reserve(values.size() / 3);
   for (int i = 0; i < values.size(); i += 3) {
     triples.emplace_back(values[i], values[i + 1], values[i + 2]);
-    if (finite && !triples.back().allFinite()) {
-      Fail(field + "[" + std::to_string(i) + "]", "is not finite");
-      return triples;
-    }
   }
   return triples;
 }

@@ -26,13 +26,22 @@ std::vector<SpaceStatus> ReadStatuses(const google::protobuf::RepeatedField<int>
 
 }  // namespace
 
-void Write(const PointAnswers& answer, v1::GetPointOccupancyResponse* proto) {
-  Write(static_cast<const Versioned&>(answer), proto->mutable_scene());
-  for (const PointOccupancy& point : answer.points) {
-    proto->add_statuses(ToProto(point.status));
-    proto->add_object_ids(point.object);
-    proto->add_fused_log_odds(point.fused_log_odds.value_or(kNone));
-  }
+PointWriter::PointWriter(const Versioned& scene, std::size_t points,
+                         v1::GetPointOccupancyResponse* proto) {
+  Write(scene, proto->mutable_scene());
+  const int size = static_cast<int>(points);
+  proto->mutable_statuses()->Resize(size, v1::SPACE_STATUS_UNSPECIFIED);
+  proto->mutable_object_ids()->Resize(size, kStaticLabel);
+  proto->mutable_fused_log_odds()->Resize(size, kNone);
+  statuses_ = proto->mutable_statuses()->mutable_data();
+  object_ids_ = proto->mutable_object_ids()->mutable_data();
+  fused_log_odds_ = proto->mutable_fused_log_odds()->mutable_data();
+}
+
+void PointWriter::Set(std::size_t i, const PointOccupancy& point) {
+  statuses_[i] = ToProto(point.status);
+  object_ids_[i] = point.object;
+  fused_log_odds_[i] = point.fused_log_odds.value_or(kNone);
 }
 
 absl::StatusOr<PointAnswers> ReadPoints(const v1::GetPointOccupancyResponse& proto) {
@@ -40,6 +49,7 @@ absl::StatusOr<PointAnswers> ReadPoints(const v1::GetPointOccupancyResponse& pro
   if (proto.object_ids_size() != size || proto.fused_log_odds_size() != size) return Misfit();
   PointAnswers answer;
   static_cast<Versioned&>(answer) = ReadVersion(proto.scene());
+  answer.points.reserve(size);
   for (int i = 0; i < size; ++i) {
     answer.points.push_back(
         {ReadSpaceStatus(proto.statuses(i)), proto.object_ids(i), Value(proto.fused_log_odds(i))});

@@ -9,7 +9,18 @@ namespace clearway {
 
 // Readers refuse (INTERNAL) an answer whose arrays do not fit together.
 
-void Write(const PointAnswers& answer, v1::GetPointOccupancyResponse* proto);
+// Writes the answers of so many points in place, in any order. One thread; the message must outlive
+// it.
+class PointWriter {
+ public:
+  PointWriter(const Versioned& scene, std::size_t points, v1::GetPointOccupancyResponse* proto);
+  void Set(std::size_t i, const PointOccupancy& point);
+
+ private:
+  int* statuses_;
+  std::int32_t* object_ids_;
+  double* fused_log_odds_;
+};
 absl::StatusOr<PointAnswers> ReadPoints(const v1::GetPointOccupancyResponse& proto);
 
 void Write(const BoxOccupancy& answer, v1::GetBoxOccupancyResponse* proto);

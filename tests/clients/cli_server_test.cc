@@ -263,6 +263,42 @@ TEST_F(CliServer, ABrokenPriorIsNamed) {
   EXPECT_THAT(dut.err, HasSubstr("broken.bt"));
 }
 
+TEST_F(CliServer, BenchLoadsWithPoints) {
+  Replay();
+  const json dut = Ask({"bench", "--points", "50", "--connections", "2", "--seconds", "0.1"});
+  EXPECT_EQ(dut["connections"], 2);
+  EXPECT_EQ(dut["batch"], 50);
+  EXPECT_EQ(dut["box_world"], Ask({"status"})["static_box_world"]);
+  EXPECT_GT(dut["calls"], 0);
+  EXPECT_EQ(dut["points_per_s"], 50 * dut["calls_per_s"].get<double>());
+  const json& latency = dut["latency_ms"];
+  EXPECT_GT(latency["p50"], 0);
+  EXPECT_LE(latency["p50"], latency["p90"]);
+  EXPECT_LE(latency["p90"], latency["p99"]);
+  EXPECT_LE(latency["p99"], latency["max"]);
+}
+
+TEST_F(CliServer, BenchLoadsWithStates) {
+  const json dut = Ask({"bench", "--states", "5", "--robot", "sphere:0.2", "--unknown", "0.5",
+                        "--bounds", "0,0,0,1,1,1", "--seconds", "0.1"});
+  EXPECT_GT(dut["states_per_s"], 0);
+  const Finished text = Clearway({"bench", "--points", "5", "--bounds", "0,0,0,1,1,1",
+                                  "--time-step", "0", "--seconds", "0.1"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, StartsWith("1 connection, batches of 5 points, from (0.0, 0.0, 0.0) to "));
+  EXPECT_THAT(text.out, HasSubstr("points/s\nlatency ms  p50 "));
+}
+
+TEST_F(CliServer, BenchSaysWhatIsWrong) {
+  const Finished empty = Clearway({"bench"});
+  EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_THAT(empty.err, HasSubstr("the scene is empty: replay something, or give --bounds"));
+  const Finished large =
+      Clearway({"bench", "--points", "5000000", "--bounds", "0,0,0,1,1,1", "--seconds", "0.1"});
+  EXPECT_EQ(large.exit_code, 1);
+  EXPECT_THAT(large.err, HasSubstr("the limit is"));
+}
+
 TEST_F(CliServer, ShowsLimitsAndParameters) {
   const json info = Ask({"server-info"});
   EXPECT_GT(info["limits"]["max_points_per_frame"], 0);

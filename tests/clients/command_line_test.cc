@@ -19,8 +19,8 @@ Finished Clearway(std::vector<std::string> arguments, const std::string& input =
 }
 
 std::vector<std::string> Commands() {
-  return {"simulate", "info",   "replay",     "status", "objects",    "occupancy",
-          "check",    "export", "load-prior", "reset",  "server-info"};
+  return {"simulate", "info",   "replay",     "status", "objects",     "occupancy",
+          "check",    "export", "load-prior", "reset",  "server-info", "bench"};
 }
 
 TEST(CommandLine, Empty) {
@@ -71,6 +71,11 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"export", "--what", "all", "--out", "m.bt"}, "--what"},
       {{"export", "--out", "map"}, "--format"},
       {{"load-prior", "map.ply"}, ".bt"},
+      {{"bench", "--points", "0"}, "--points"},
+      {{"bench", "--points", "5", "--states", "5"}, "--states"},
+      {{"bench", "--connections", "0"}, "--connections"},
+      {{"bench", "--seconds", "nan"}, "--seconds"},
+      {{"bench", "--states", "9", "--unknown", "2"}, "--unknown"},
   };
   for (const auto& [arguments, named] : cases) {
     const Finished dut = Clearway(arguments);
@@ -92,11 +97,13 @@ TEST(CommandLine, RefusesNumbersOutOfRangeShortly) {
 }
 
 TEST(CommandLine, SaysThatNoServerAnswers) {
-  // Port 1 is nobody's.
-  const Finished dut = Clearway({"status", "--server", "127.0.0.1:1", "--timeout", "1"});
-  EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, StartsWith("clearway: no server answers at 127.0.0.1:1"));
-  EXPECT_THAT(dut.err, HasSubstr("clearway-server"));
+  for (const char* command : {"status", "bench"}) {
+    // Port 1 is nobody's.
+    const Finished dut = Clearway({command, "--server", "127.0.0.1:1", "--timeout", "1"});
+    EXPECT_EQ(dut.exit_code, 1);
+    EXPECT_THAT(dut.err, StartsWith("clearway: no server answers at 127.0.0.1:1"));
+    EXPECT_THAT(dut.err, HasSubstr("clearway-server"));
+  }
 }
 
 TEST(CommandLine, SimulatesAndListsARecording) {

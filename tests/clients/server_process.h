@@ -18,6 +18,7 @@ class ServerProcess {
 
   // Empty if it did not start.
   const std::string& address() const { return address_; }
+  pid_t pid() const { return pid_; }
 
  private:
   pid_t pid_ = -1;

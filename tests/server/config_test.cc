@@ -108,6 +108,7 @@ TEST(ServerConfig, RefusesBadValuesNamingTheKey) {
       {{"--scene-solid", "jelly"}, "scene.solid"},
       {{"--scene-bounds-m", "1 2 3"}, "scene.bounds_m"},
       {{"--threads", "-1"}, "threads"},
+      {{"--writer-niceness", "20"}, "writer_niceness"},
       {{"--limits-max-robots", "0"}, "limits.max_robots"},
       {{"--limits-max-robots", "-1"}, "limits.max_robots"},
       {{"--limits-max-message-bytes", "5000000000"}, "limits.max_message_bytes"},

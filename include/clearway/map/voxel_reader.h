@@ -1,6 +1,7 @@
 // Many lookups in one map.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,7 +22,25 @@ class VoxelReader {
   // must be at most grid().limit_m(). The spans are of one size.
   void States(std::span<const Eigen::Vector3d> points, std::span<VoxelState> states);
 
+  // Calls visit(i, block, index) for each point: its voxel is the block's one at that index; an
+  // empty block stands for one that does not exist.
+  template <class Visit>
+  void ForEach(std::span<const Eigen::Vector3d> points, Visit&& visit) {
+    for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, points.size() - begin);
+      Locate(points.subspan(begin, count));
+      for (std::size_t i = 0; i < count; ++i) {
+        visit(begin + i, *blocks_[runs_[i]], static_cast<int>(indices_[i]));
+      }
+    }
+  }
+
  private:
+  // Points: all that is known of so many stays in the first cache.
+  static constexpr std::size_t kAtOnce = 256;
+
+  // Fills what follows for at most kAtOnce points.
+  void Locate(std::span<const Eigen::Vector3d> points);
   std::size_t CutIntoRuns(std::size_t count);
 
   const VoxelMap& map_;

@@ -51,7 +51,10 @@ class SceneAtTime {
 // The two parts of what a scene says of a point: the static map with the scene's bounds and
 // keep-out zones, and then every object near the point in ascending order, if the point is within
 // bounds.
-PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W);
+// `stored`: the log-odds of the point's voxel, if the static map has observed it; looked at for a
+// point in the addressable space alone.
+PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d& p_W,
+                               std::optional<LogOdds> stored);
 void AddObject(const SceneSnapshot& scene, const SceneAtTime::Placed& placed,
                const Eigen::Vector3d& p_W, PointOccupancy& answer);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/container/flat_hash_map.h"
+#include "clearway/map/voxel_reader.h"
 #include "clearway/scene/object_index.h"
 #include "clearway/scene/occupancy.h"
 
@@ -20,12 +21,18 @@ class TimedScene {
   TimedScene(const SceneSnapshot& scene, Time first, Time last);
 
   PointOccupancy At(const Eigen::Vector3d& p_W, Time time);
+  // The same for many points, which is faster: the spans are of one size.
+  void At(std::span<const Eigen::Vector3d> points_W, std::span<const Time> times,
+          std::span<PointOccupancy> answers);
 
  private:
   const SceneAtTime::Placed& Placed(std::size_t object, Time time);
+  void AddObjects(const Eigen::Vector3d& p_W, Time time, PointOccupancy& answer);
 
   const SceneSnapshot& scene_;
   ObjectIndex index_;
+  VoxelReader static_map_;
+  std::vector<Eigen::Vector3d> addressable_W_;
   // By object and time, the ones asked for lately.
   absl::flat_hash_map<std::pair<std::size_t, std::int64_t>, SceneAtTime::Placed> placed_;
 };

@@ -1,0 +1,144 @@
+// A mirror: what one scan of a real drive costs to follow, how far the mirror lags behind, and
+// checks in it against checks on the server's own scene.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "clearway/client/scene_mirror.h"
+#include "clearway/collision/scene_checker.h"
+#include "clearway/scene/scene_delta.h"
+#include "drive_server.h"
+#include "load/load.h"
+#include "summary.h"
+#include "wire/delta_wire.h"
+
+namespace clearway::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double MsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// What one version costs to follow.
+struct FollowCost {
+  double bytes = 0, make_ms = 0, apply_ms = 0;
+};
+
+// Sends `next` to a mirror that has `before`, without the network.
+FollowCost FollowOnce(const SceneSnapshot& before, const SceneSnapshot& next) {
+  FollowCost cost;
+  std::vector<v1::SceneDeltaPart> parts;
+  Clock::time_point begin = Clock::now();
+  WriteDelta(Diff(&before, next), [&](const v1::SceneDeltaPart& part) {
+    parts.push_back(part);
+    return true;
+  });
+  cost.make_ms = MsSince(begin);
+  begin = Clock::now();
+  DeltaAssembler assembler;
+  std::optional<SceneDelta> delta;
+  for (const v1::SceneDeltaPart& part : parts) {
+    delta = *assembler.Add(part);
+    cost.bytes += static_cast<double>(part.ByteSizeLong());
+  }
+  const auto mirrored = Apply(&before, *delta);
+  cost.apply_ms = MsSince(begin);
+  if (!mirrored.ok() || !SameContent(*mirrored, next)) std::abort();
+  return cost;
+}
+
+// Each scan's delta, but for the first few scans: they fill an empty map.
+void Deltas(benchmark::State& state, Drive drive, std::size_t scans) {
+  constexpr std::size_t kFirst = 3;
+  ThreadPool pool(1);
+  for (auto _ : state) {
+    SceneBuilder builder(DriveParams(), {}, pool);
+    ScenePtr before;
+    FollowCost sum;
+    for (std::size_t i = 0; i < scans; ++i) {
+      if (!builder.Apply(drive.Next()).ok()) state.SkipWithError("a scan was refused");
+      const ScenePtr next = builder.Publish();
+      if (i >= kFirst) {
+        const FollowCost cost = FollowOnce(*before, *next);
+        sum.bytes += cost.bytes;
+        sum.make_ms += cost.make_ms;
+        sum.apply_ms += cost.apply_ms;
+      }
+      before = next;
+    }
+    const double counted = static_cast<double>(scans - kFirst);
+    state.counters["delta_mb_per_scan"] = sum.bytes / 1e6 / counted;
+    state.counters["delta_make_ms"] = sum.make_ms / counted;
+    state.counters["delta_apply_ms"] = sum.apply_ms / counted;
+  }
+}
+
+// From the answer to an applied scan to its appearance in a mirror, over loopback.
+void Lag(benchmark::State& state, std::size_t scans) {
+  DriveServer served(1);
+  const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
+  for (auto _ : state) {
+    std::vector<double> lags_ms;
+    for (std::size_t i = 0; i < scans; ++i) {
+      const std::uint64_t version = served.Apply();
+      const Clock::time_point begin = Clock::now();
+      const auto shown = (*mirror)->WaitFor(version, std::chrono::seconds(10));
+      if (!shown.ok()) state.SkipWithError("the mirror lost the server");
+      lags_ms.push_back(MsSince(begin));
+    }
+    std::sort(lags_ms.begin(), lags_ms.end());
+    state.counters["mirror_lag_ms"] = lags_ms[lags_ms.size() / 2];
+  }
+}
+
+// The same states on the server's own scene and on the mirror's copy of it, by turns.
+void Checks(benchmark::State& state, DriveServer& served, Duration turn) {
+  const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
+  const ScenePtr copy = (*mirror)->Latest();
+  if (!SameContent(*copy, *served.Newest())) state.SkipWithError("the mirror differs");
+  const Robot robot = Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}});
+  RandomQuestions questions(served.GroundSpace(), 1);
+  std::vector<StateBatch> batches;
+  for (int i = 0; i < 8; ++i) batches.push_back(questions.States(1'000, {Pose{}}));
+  const auto caller = [&](const ScenePtr& scene) -> Caller {
+    CheckOptions options;
+    options.unknown = UnknownPolicy::kFree;
+    const auto checker = std::make_shared<SceneChecker>(scene, robot);
+    return [checker, options, &batches, next = std::size_t{0}]() mutable {
+      return checker->Check(batches[next++ % batches.size()], options).status();
+    };
+  };
+  const std::vector<Caller> local = {caller(served.Newest())}, mirrored = {caller(copy)};
+  for (auto _ : state) {
+    const double in_process = RunLoad(local, turn)->CallsPerSecond();
+    state.counters["mirror_vs_local_x"] = RunLoad(mirrored, turn)->CallsPerSecond() / in_process;
+  }
+}
+
+void Register(const Effort& effort) {
+  const std::size_t scans = effort.quick ? 6 : 20;
+  const auto served = std::make_shared<DriveServer>(scans);
+  const Duration turn = std::chrono::milliseconds(effort.quick ? 500 : 2000);
+  const auto add = [&](const char* name, auto run) {
+    benchmark::RegisterBenchmark(name, run)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1)
+        ->Repetitions(effort.repetitions())
+        ->UseRealTime()
+        ->ReportAggregatesOnly();
+  };
+  using State = benchmark::State;
+  add("deltas", [=, drive = Drive()](State& s) { Deltas(s, drive, scans); });
+  add("lag", [=](State& s) { Lag(s, scans); });
+  add("checks", [=](State& s) { Checks(s, *served, turn); });
+}
+
+}  // namespace
+}  // namespace clearway::bench
+
+int main(int argc, char** argv) {
+  return clearway::bench::Main(argc, argv, clearway::bench::Register, {});
+}

@@ -1,0 +1,117 @@
+// A server over gRPC on loopback: occupancy of timed points against a service that answers the same
+// messages without work, one state against an empty call, and robot states. The two sides of a
+// ratio take turns, so that both see the same machine.
+#include <benchmark/benchmark.h>
+
+#include <thread>
+
+#include "clearway/client/remote_checker.h"
+#include "drive_server.h"
+#include "rpc_calls.h"
+#include "summary.h"
+
+namespace clearway::bench {
+namespace {
+
+constexpr std::size_t kPoints = 10'000, kStates = 1'000;
+
+struct Setting {
+  explicit Setting(const Effort& effort)
+      : served(effort.quick ? 5 : 20),
+        turn(std::chrono::milliseconds(effort.quick ? 500 : 2000)),
+        callers(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
+
+  DriveServer served;
+  EchoServer echo;
+  Duration turn;  // of one side
+  int callers;
+};
+
+// Runs the callers; a failure ends the benchmark.
+LoadReport Measure(benchmark::State& state, const std::vector<Caller>& callers, Duration duration) {
+  auto report = RunLoad(callers, duration);
+  if (report.ok()) return *std::move(report);
+  state.SkipWithError(report.status().ToString().c_str());
+  return {};
+}
+
+// As many callers as processors, each with batches of its own.
+void Points(benchmark::State& state, Setting& setting, Duration step) {
+  QuestionSpace space = setting.served.Space();
+  space.step = step;
+  std::vector<Caller> points, echoes;
+  for (int i = 0; i < setting.callers; ++i) {
+    points.push_back(PointsCall(setting.served.address(), space, kPoints, i));
+    echoes.push_back(PointsCall(setting.echo.address(), space, kPoints, i));
+  }
+  for (auto _ : state) {
+    const double echo = Measure(state, echoes, setting.turn).CallsPerSecond();
+    const double ours = Measure(state, points, setting.turn).CallsPerSecond();
+    const std::string name = step == Duration(0) ? "rpc_points_any_time" : "rpc_points";
+    state.counters[name + "_vs_echo_x"] = ours / echo;
+    state.counters[name + "_per_s"] = kPoints * ours;
+  }
+}
+
+// A box-shaped robot at random near the ground.
+Caller StatesCall(Setting& setting, std::size_t states, std::uint64_t seed) {
+  auto connection = Connection::Open(setting.served.address());
+  if (!connection.ok()) return [status = connection.status()] { return status; };
+  auto checker = RemoteChecker::Pin(*connection, Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
+  if (!checker.ok()) return [status = checker.status()] { return status; };
+  CheckOptions options;
+  options.unknown = UnknownPolicy::kFree;
+  std::vector<StateBatch> batches;
+  RandomQuestions questions(setting.served.GroundSpace(), seed);
+  for (int i = 0; i < 8; ++i) batches.push_back(questions.States(states, {Pose{}}));
+  return [checker = std::shared_ptr<RemoteChecker>(*std::move(checker)), options, batches,
+          next = std::size_t{0}]() mutable {
+    return checker->Check(batches[next++ % batches.size()], options).status();
+  };
+}
+
+void OneState(benchmark::State& state, Setting& setting) {
+  const std::vector<Caller> ours = {StatesCall(setting, 1, 1)};
+  const std::vector<Caller> empty = {EmptyCall(setting.echo.address())};
+  for (auto _ : state) {
+    const double empty_ms = Measure(state, empty, setting.turn).LatencyMs(0.5);
+    const double ours_ms = Measure(state, ours, setting.turn).LatencyMs(0.5);
+    state.counters["rpc_unary_vs_empty_x"] = ours_ms / empty_ms;
+    state.counters["rpc_unary_ms"] = ours_ms;
+  }
+}
+
+void States(benchmark::State& state, Setting& setting) {
+  std::vector<Caller> callers;
+  for (int i = 0; i < setting.callers; ++i) {
+    callers.push_back(StatesCall(setting, kStates, i));
+  }
+  for (auto _ : state) {
+    state.counters["rpc_states_per_s"] =
+        kStates * Measure(state, callers, setting.turn).CallsPerSecond();
+  }
+}
+
+void Register(const Effort& effort) {
+  const auto setting = std::make_shared<Setting>(effort);
+  const auto add = [&](const char* name, auto run) {
+    benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { run(state, *setting); })
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1)
+        ->Repetitions(effort.repetitions())
+        ->UseRealTime()
+        ->ReportAggregatesOnly();
+  };
+  using State = benchmark::State;
+  add("points", [](State& s, Setting& all) { Points(s, all, std::chrono::milliseconds(100)); });
+  add("points_any_time", [](State& s, Setting& all) { Points(s, all, Duration(0)); });
+  add("one_state", [](State& s, Setting& all) { OneState(s, all); });
+  add("states", [](State& s, Setting& all) { States(s, all); });
+}
+
+}  // namespace
+}  // namespace clearway::bench
+
+int main(int argc, char** argv) {
+  return clearway::bench::Main(argc, argv, clearway::bench::Register, {});
+}

@@ -1,0 +1,133 @@
+// Latency of queries while scans of a real drive arrive at 10 Hz, against the same queries beside a
+// thread that burns as much processor time without touching the scene. The two take turns. Server,
+// sensor and client are three processes.
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "clearway/client/scene_client.h"
+#include "clients/server_process.h"
+#include "rpc_calls.h"
+#include "scan_process.h"
+#include "summary.h"
+
+namespace clearway::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kPoints = 1'000;
+constexpr std::chrono::milliseconds kPeriod(100);
+
+double SecondsOf(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Processor time that a process has taken.
+double ProcessSeconds(pid_t pid) {
+  clockid_t clock{};
+  if (clock_getcpuclockid(pid, &clock) != 0) std::abort();
+  return SecondsOf(clock);
+}
+
+// A thread that takes so much processor time in each 0.1 s, or all it can get if that is more.
+class Burner {
+ public:
+  explicit Burner(double seconds) : seconds_(seconds) {}
+  ~Burner() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  void Run() {
+    Clock::time_point next = Clock::now();
+    while (!stop_) {
+      const double end = SecondsOf(CLOCK_THREAD_CPUTIME_ID) + seconds_;
+      while (!stop_ && SecondsOf(CLOCK_THREAD_CPUTIME_ID) < end) {
+        // About a millisecond between two system calls: the writer makes few.
+        for (int i = 0; i < 2'000'000; ++i) benchmark::DoNotOptimize(i);
+      }
+      next = std::max(next + kPeriod, Clock::now());
+      std::this_thread::sleep_until(next);
+    }
+  }
+
+  const double seconds_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_{[this] { Run(); }};
+};
+
+class Setting {
+ public:
+  explicit Setting(const Effort& effort) : turn_(std::chrono::seconds(effort.quick ? 2 : 5)) {
+    scans_.Connect(server_.address());
+    scans_.Push(effort.quick ? 6 : 20);
+  }
+
+  ScanProcess& scans() { return scans_; }
+
+  // Batches whose times stay ahead of the scans that arrive meanwhile.
+  LoadReport Ask() {
+    const auto scene = SceneClient(*Connection::Open(server_.address())).GetStatus();
+    const QuestionSpace space{scene->static_box_W, scene->stamp + turn_, std::chrono::seconds(2)};
+    auto report = RunLoad({PointsCall(server_.address(), space, kPoints, 1)}, turn_);
+    if (!report.ok()) std::abort();
+    return *std::move(report);
+  }
+
+  // Processor time that one scan takes, the sensor's part included.
+  double SecondsPerScan() {
+    const double begin = Spent();
+    scans_.Push(5);
+    return (Spent() - begin) / 5;
+  }
+
+ private:
+  double Spent() const { return ProcessSeconds(server_.pid()) + ProcessSeconds(scans_.pid()); }
+
+  ScanProcess scans_;  // forks before there are threads
+  ServerProcess server_{{"--threads", "1", "--scene-max-range-m", "50"}};
+  Duration turn_;  // of one side
+};
+
+void Writing(benchmark::State& state, Setting& setting) {
+  for (auto _ : state) {
+    const double seconds_per_scan = setting.SecondsPerScan();
+    LoadReport burning;
+    {
+      const Burner burner(seconds_per_scan);
+      burning = setting.Ask();
+    }
+    setting.scans().Start();
+    const LoadReport writing = setting.Ask();
+    state.counters["writing_scans_per_s"] = setting.scans().Stop() / writing.seconds;
+    state.counters["query_p99_while_writing_x"] = writing.LatencyMs(0.99) / burning.LatencyMs(0.99);
+    state.counters["query_p50_while_writing_x"] = writing.LatencyMs(0.5) / burning.LatencyMs(0.5);
+    state.counters["query_p99_while_writing_ms"] = writing.LatencyMs(0.99);
+    state.counters["writing_cpu_ms_per_scan"] = 1e3 * seconds_per_scan;
+  }
+}
+
+void Register(const Effort& effort) {
+  const auto setting = std::make_shared<Setting>(effort);
+  benchmark::RegisterBenchmark("writing",
+                               [=](benchmark::State& state) { Writing(state, *setting); })
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(1)
+      ->Repetitions(effort.repetitions())
+      ->UseRealTime()
+      ->ReportAggregatesOnly();
+}
+
+}  // namespace
+}  // namespace clearway::bench
+
+int main(int argc, char** argv) {
+  return clearway::bench::Main(argc, argv, clearway::bench::Register, {});
+}
