@@ -83,7 +83,7 @@ void Register(const Effort& effort) {
         ->Repetitions(effort.repetitions())
         ->ReportAggregatesOnly();
   };
-  const Points random = RandomPoints(all_W, 1'000'000), lines = PointsOnLines(all_W, 1'000'000);
+  const Points random = RandomPoints(all_W, 1'000'000), lines = PointsOnLines(all_W, 100'000);
   add("octomap_random", Octomap, random);
   add("clearway_random", Clearway, random);
   add("octomap_coherent", Octomap, lines);

@@ -85,33 +85,10 @@ double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
   return (ap - (vb * ab + vc * ac) / (va + vb + vc)).norm();
 }
 
-std::optional<Eigen::Vector3d> NearestPoint(const Eigen::Vector3d& p, const Shape& shape) {
-  using Point = std::optional<Eigen::Vector3d>;
-  return std::visit(
-      Overloaded{
-          [&](const Sphere& s) -> Point {
-            const double distance_m = p.norm();
-            return distance_m <= s.radius_m ? p : p * (s.radius_m / distance_m);
-          },
-          [&](const Box& b) -> Point {
-            return p.cwiseMin(0.5 * b.size_m).cwiseMax(-0.5 * b.size_m);
-          },
-          [&](const Capsule& c) -> Point {
-            const Eigen::Vector3d on_axis(0, 0,
-                                          std::clamp(p.z(), -0.5 * c.length_m, 0.5 * c.length_m));
-            const double distance_m = (p - on_axis).norm();
-            return distance_m <= c.radius_m ? p
-                                            : on_axis + (p - on_axis) * (c.radius_m / distance_m);
-          },
-          [&](const Cylinder& c) -> Point {
-            const double out_m = std::hypot(p.x(), p.y());
-            const double inward = out_m <= c.radius_m ? 1 : c.radius_m / out_m;
-            return Eigen::Vector3d(p.x() * inward, p.y() * inward,
-                                   std::clamp(p.z(), -0.5 * c.length_m, 0.5 * c.length_m));
-          },
-          [](const auto&) -> Point { return std::nullopt; },
-      },
-      shape);
+Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Cylinder& cylinder) {
+  const double out_m = std::hypot(p.x(), p.y()), half_m = 0.5 * cylinder.length_m;
+  const double inward = out_m <= cylinder.radius_m ? 1 : cylinder.radius_m / out_m;
+  return {p.x() * inward, p.y() * inward, std::clamp(p.z(), -half_m, half_m)};
 }
 
 double PointShapeDistance(const Eigen::Vector3d& p, const Shape& shape) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/shape.h"
@@ -19,8 +18,8 @@ double SegmentBoxDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, co
 double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-// The point of the solid shape nearest to p, p itself inside; none for hulls and meshes.
-std::optional<Eigen::Vector3d> NearestPoint(const Eigen::Vector3d& p_G, const Shape& shape);
+// The point of the solid cylinder nearest to p, p itself inside.
+Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p_G, const Cylinder& cylinder);
 
 // From a point to a shape, both in G; shapes are solid in the sense of Contains.
 double PointShapeDistance(const Eigen::Vector3d& p_G, const Shape& shape);

@@ -156,10 +156,24 @@ bool PlacedShape::Contains(const Eigen::Vector3d& p_F) const {
 }
 
 std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector3d& p_F) const {
+  const auto* cylinder = std::get_if<Cylinder>(&geometry_->shape());
+  if (cylinder == nullptr) return std::nullopt;
   const Eigen::Vector3d p_G = ToG(p_F);
-  const std::optional<Eigen::Vector3d> nearest_G = NearestPoint(p_G, geometry_->shape());
-  if (!nearest_G) return std::nullopt;
-  return R_F_G_ * (p_G - *nearest_G);
+  return R_F_G_ * (p_G - NearestPoint(p_G, *cylinder));
+}
+
+std::optional<RoundedBox> PlacedShape::AsRoundedBox() const {
+  const Shape& shape = geometry_->shape();
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    return RoundedBox{R_F_G_, origin_F(), Eigen::Vector3d::Zero(), sphere->radius_m};
+  }
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    return RoundedBox{R_F_G_, origin_F(), 0.5 * box->size_m, 0};
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    return RoundedBox{R_F_G_, origin_F(), {0, 0, 0.5 * capsule->length_m}, capsule->radius_m};
+  }
+  return std::nullopt;
 }
 
 // The gap along F's axes, or that along G's.

@@ -34,6 +34,14 @@ class ShapeGeometry {
   std::shared_ptr<const Fcl> fcl_;
 };
 
+// A box at a pose in F, grown by a radius: a sphere is a rounded point, a capsule a rounded line.
+struct RoundedBox {
+  Eigen::Matrix3d R_F_G;
+  Eigen::Vector3d origin_F;
+  Eigen::Vector3d half_m;  // of its edges, along G's axes
+  double radius_m;
+};
+
 // A shape at a pose in a frame F. Immutable; refers to the geometry it was made of.
 //
 // Distances are in metres and 0 where the two meet; both sides are solid, a closed mesh too. A
@@ -49,8 +57,9 @@ class PlacedShape {
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
-  // The vector to p from the shape's nearest point, 0 inside; only of spheres, boxes, capsules and
-  // cylinders.
+  // The same set of points, if the shape is a sphere, box or capsule.
+  std::optional<RoundedBox> AsRoundedBox() const;
+  // The vector to p from the shape's nearest point, 0 inside; of cylinders alone.
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;

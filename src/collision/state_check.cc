@@ -13,7 +13,9 @@ RobotGeometry PrepareRobot(const Robot& robot) {
   for (const Link& link : robot.links) {
     LinkGeometry& prepared = geometry.emplace_back();
     for (const LinkShape& shape : link.shapes) {
-      prepared.parts.push_back({ShapeGeometry(shape.shape), shape.T_L_G});
+      const bool at_origin = shape.T_L_G == Pose{};
+      prepared.parts.push_back(
+          {ShapeGeometry(shape.shape), at_origin ? std::nullopt : std::optional(shape.T_L_G)});
     }
   }
   return geometry;
@@ -26,7 +28,7 @@ void StateCheck::Place(const Pose* T_W_L) {
     first_shapes_.push_back(shapes_W_.size());
     const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
     for (const LinkGeometry::Part& part : robot_[link].parts) {
-      shapes_W_.emplace_back(part.geometry, T_W_link * part.T_L_G);
+      shapes_W_.emplace_back(part.geometry, part.T_L_G ? T_W_link * *part.T_L_G : T_W_link);
     }
   }
   first_shapes_.push_back(shapes_W_.size());

@@ -18,7 +18,7 @@ namespace clearway {
 struct LinkGeometry {
   struct Part {
     ShapeGeometry geometry;
-    Pose T_L_G;
+    std::optional<Pose> T_L_G;  // none: G is L
   };
   std::vector<Part> parts;
 };

@@ -35,8 +35,10 @@ class Search {
   // Whether one of the block's voxels that are marked touches the shape.
   bool Touches(BlockKey block, const BlockMask& voxels) const {
     if (!voxels.Any()) return false;
+    constexpr int kFew = 8;  // are asked at once
     const VoxelKey base = VoxelAt(block, 0);
     if (Misses(base, kBlockSize)) return false;
+    if (AtMost(kFew, voxels)) return TouchesAny(block, voxels);
     for (int octant = 0; octant < 8; ++octant) {
       BlockMask inside = kOctants[octant];
       std::uint64_t any = 0;
@@ -68,6 +70,15 @@ class Search {
         return true;
       case CubeContact::Answer::kOpen:
         return shape_.DistanceTo(grid_.BoxOf(key), margin_m_) <= margin_m_;
+    }
+    return true;
+  }
+
+  static bool AtMost(int count, const BlockMask& voxels) {
+    for (std::uint64_t word : voxels.words) {
+      for (; word != 0; word &= word - 1) {
+        if (--count < 0) return false;
+      }
     }
     return true;
   }

@@ -36,19 +36,24 @@ VoxelReader::VoxelReader(const VoxelMap& map)
       block_numbers_(kAtOnce),
       indices_(kAtOnce),
       runs_(kAtOnce),
+      members_(kAtOnce),
       block_keys_(kAtOnce),
       blocks_(kAtOnce) {}
 
 // Fills runs_ and block_keys_; returns how many runs there are.
 std::size_t VoxelReader::CutIntoRuns(std::size_t count) {
+  const std::uint64_t* numbers = block_numbers_.data();
+  std::uint32_t* const runs = runs_.data();
+  std::uint32_t* const members = members_.data();
   std::uint32_t run = 0;
-  std::uint64_t number = block_numbers_[0];
-  for (std::size_t i = 0; i < count; ++i) {
-    run += block_numbers_[i] != number;
-    number = block_numbers_[i];
-    runs_[i] = run;
-    block_keys_[run] = BlockOf(keys_[i]);
+  std::uint64_t number = numbers[0];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    run += numbers[i] != number;
+    number = numbers[i];
+    runs[i] = run;
+    members[run] = i;
   }
+  for (std::uint32_t r = 0; r <= run; ++r) block_keys_[r] = BlockOf(keys_[members[r]]);
   return run + 1;
 }
 

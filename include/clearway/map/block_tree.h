@@ -214,11 +214,28 @@ void BlockTree::ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const {
   });
 }
 
+// Small ranges mostly lie in one branch: it is found without a look at its neighbours.
 template <class Visit>
 bool BlockTree::AnyOccupiedIn(BlockKey min, BlockKey max, Visit&& visit) const {
-  return AnyRootIn(min, max, [&](const Root& root) {
-    return AnyIn<true>(*root.node, FirstBlockOf(root), min, max, visit);
-  });
+  const std::int32_t spread = (min.x ^ max.x) | (min.y ^ max.y) | (min.z ^ max.z);
+  const auto base_of = [&](int bits) -> BlockKey {
+    return {min.x >> bits << bits, min.y >> bits << bits, min.z >> bits << bits};
+  };
+  if (spread >> kRootBits != 0) {
+    return AnyRootIn(min, max, [&](const Root& root) {
+      return AnyIn<true>(*root.node, FirstBlockOf(root), min, max, visit);
+    });
+  }
+  const Upper* upper = FindRoot(RootKey(min));
+  if (upper == nullptr) return false;
+  if (spread >> 2 * kFanBits != 0) return AnyIn<true>(*upper, base_of(kRootBits), min, max, visit);
+  const int in_upper = Slot(min, 2 * kFanBits);
+  if ((upper->occupied >> in_upper & 1) == 0) return false;
+  const Middle& middle = *upper->children[in_upper];
+  if (spread >> kFanBits != 0) return AnyIn<true>(middle, base_of(2 * kFanBits), min, max, visit);
+  const int in_middle = Slot(min, kFanBits);
+  if ((middle.occupied >> in_middle & 1) == 0) return false;
+  return AnyIn<true>(*middle.children[in_middle], base_of(kFanBits), min, max, visit);
 }
 
 template <class Node, class Visit>

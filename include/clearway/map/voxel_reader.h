@@ -48,7 +48,8 @@ class VoxelReader {
   std::vector<VoxelKey> keys_;
   std::vector<std::uint64_t> block_numbers_;
   std::vector<std::uint32_t> indices_, runs_;
-  // Of each run of points in one block.
+  // Of each run of points in one block; members are points of it.
+  std::vector<std::uint32_t> members_;
   std::vector<BlockKey> block_keys_;
   std::vector<const VoxelBlock*> blocks_;
 };
