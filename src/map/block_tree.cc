@@ -64,8 +64,9 @@ void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** block
     for (std::size_t i = begin; i < end; ++i) {
       const Leaf* leaf = leaves[i - begin]->get();
       blocks[i] = leaf == nullptr ? nullptr : &leaf->block;
-      __builtin_prefetch(leaf);
-      __builtin_prefetch(reinterpret_cast<const char*>(leaf) + 64);
+      const auto address = reinterpret_cast<std::uintptr_t>(leaf);  // may be 0
+      __builtin_prefetch(reinterpret_cast<const void*>(address));
+      __builtin_prefetch(reinterpret_cast<const void*>(address + 64));
     }
   }
 }

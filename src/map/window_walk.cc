@@ -1,6 +1,7 @@
 #include "map/window_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace clearway {
@@ -12,25 +13,41 @@ double If(bool condition, double value) {
 }
 std::int32_t If(bool condition, std::int32_t value) { return value & -std::int32_t{condition}; }
 
-void Walk(const WindowRay& ray, std::uint32_t* words) {
-  double x = ray.t_max[0], y = ray.t_max[1], z = ray.t_max[2];
-  std::int32_t index = ray.index;
-  do {
-    words[index >> 5] |= std::uint32_t{1} << (index & 31);
-    const bool x_before_y = x < y;
-    const bool not_z = (x_before_y ? x : y) < z;
-    const bool along_x = x_before_y & not_z, along_y = !x_before_y & not_z, along_z = !not_z;
-    x += If(along_x, ray.t_delta[0]);
-    y += If(along_y, ray.t_delta[1]);
-    z += If(along_z, ray.t_delta[2]);
-    index += If(along_x, ray.stride[0]) + If(along_y, ray.stride[1]) + If(along_z, ray.stride[2]);
-  } while (index != ray.end && std::min({x, y, z}) <= ray.length_m);
+// One step; false at the ray's end.
+bool Step(WindowRay& ray, std::uint32_t* words) {
+  auto& [x, y, z] = ray.t_max;
+  words[ray.index >> 5] |= std::uint32_t{1} << (ray.index & 31);
+  const bool x_before_y = x < y;
+  const bool not_z = (x_before_y ? x : y) < z;
+  const bool along_x = x_before_y & not_z, along_y = !x_before_y & not_z, along_z = !not_z;
+  x += If(along_x, ray.t_delta[0]);
+  y += If(along_y, ray.t_delta[1]);
+  z += If(along_z, ray.t_delta[2]);
+  ray.index += If(along_x, ray.stride[0]) + If(along_y, ray.stride[1]) + If(along_z, ray.stride[2]);
+  return (ray.index != ray.end) & (std::min({x, y, z}) <= ray.length_m);
 }
 
 }  // namespace
 
 void WalkWindowPortable(std::span<const WindowRay> rays, std::uint32_t* words) {
-  for (const WindowRay& ray : rays) Walk(ray, words);
+  constexpr std::size_t kUnderWay = 4;  // the steps of one hide the latency of the others'
+  std::array<WindowRay, kUnderWay> under_way;
+  std::size_t next = 0, count = 0;
+  while (count < kUnderWay && next < rays.size()) under_way[count++] = rays[next++];
+  while (count == kUnderWay) {
+    for (WindowRay& ray : under_way) {
+      if (Step(ray, words)) continue;
+      if (next < rays.size()) {
+        ray = rays[next++];
+      } else {
+        std::swap(ray, under_way[--count]);
+        break;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    while (Step(under_way[i], words)) continue;
+  }
 }
 
 WindowWalk FastestWindowWalk() { return HasAvx512() ? WalkWindowAvx512 : WalkWindowPortable; }

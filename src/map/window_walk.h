@@ -20,7 +20,7 @@ struct WindowRay {
 // All implementations set the same bits.
 using WindowWalk = void (*)(std::span<const WindowRay> rays, std::uint32_t* words);
 
-// One ray at a time, without branches that a processor cannot foresee.
+// A few rays at a time, without branches that a processor cannot foresee.
 void WalkWindowPortable(std::span<const WindowRay> rays, std::uint32_t* words);
 
 // Many rays at a time: the next step of one does not wait for that of another. Only for processors
