@@ -1,0 +1,106 @@
+// The quick answers about cubes against the exact distance, and contact with a map against a look
+// at every voxel.
+#include "collision/voxel_contact.h"
+
+#include <gtest/gtest.h>
+
+#include "clearway/geometry/hull.h"
+#include "collision/cube_contact.h"
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+std::vector<Shape> Shapes() {
+  return {Sphere{0.3}, Sphere{0.01}, Box{{0.9, 0.3, 0.05}}, Capsule{0.1, 0.8}, Cylinder{0.3, 0.5}};
+}
+
+TEST(CubeContact, CertainAnswersAreRight) {
+  Random random(1);
+  for (const Shape& shape : Shapes()) {
+    const ShapeGeometry geometry(shape);
+    int open = 0, no = 0, yes = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const PlacedShape placed(geometry, random.AnyPose(0.3));
+      const double margin_m = i % 2 == 0 ? 0 : random.Uniform(0, 0.3);
+      const CubeContact dut(placed, margin_m);
+      const Eigen::Vector3d center = random.Vector(1);
+      const double half_m = random.Uniform(0.01, 0.4);
+      const Aabb cube{center.array() - half_m, center.array() + half_m};
+      const bool touches = placed.DistanceTo(cube, margin_m) <= margin_m;
+      const CubeContact::Answer answer = dut.Of(center, half_m);
+      EXPECT_FALSE(answer == CubeContact::Answer::kNo && touches);
+      EXPECT_FALSE(answer == CubeContact::Answer::kYes && !touches);
+      no += answer == CubeContact::Answer::kNo;
+      yes += answer == CubeContact::Answer::kYes;
+      open += answer == CubeContact::Answer::kOpen;
+    }
+    EXPECT_GT(no, 500);
+    EXPECT_GT(yes, 500);
+    EXPECT_LT(open, 1000);
+  }
+}
+
+TEST(CubeContact, NothingIsCertainOfMeshes) {
+  const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto mesh = std::make_shared<const Mesh>(ConvexHullOf(corners));
+  const ShapeGeometry geometry(TriangleMesh{mesh});
+  const PlacedShape placed(geometry, Pose{});
+  const CubeContact dut(placed, 0);
+  EXPECT_EQ(dut.Of({9, 9, 9}, 0.1), CubeContact::Answer::kOpen);
+}
+
+class VoxelContactTest : public testing::Test {
+ protected:
+  VoxelContactTest() {
+    for (int i = 0; i < 60'000; ++i) {
+      const VoxelKey key = map_.grid().KeyOf(random_.Vector(1.6));
+      map_.Set(key, static_cast<LogOdds>(random_.Integer(0, 60) == 0 ? 100 : -100));
+    }
+  }
+  // Whether a voxel of the state within 2 m lies within the margin.
+  bool Touches(const PlacedShape& shape, VoxelState state, double margin_m,
+               const std::vector<Aabb>& left_out) const {
+    const VoxelGrid& grid = map_.grid();
+    for (VoxelKey key{-20, 0, 0}; key.x < 20; ++key.x) {
+      for (key.y = -20; key.y < 20; ++key.y) {
+        for (key.z = -20; key.z < 20; ++key.z) {
+          if (map_.State(key) != state || InOneOf(left_out, grid.CenterOf(key))) continue;
+          if (shape.DistanceTo(grid.BoxOf(key), margin_m) <= margin_m) return true;
+        }
+      }
+    }
+    return false;
+  }
+  Random random_{2};
+  VoxelMap map_{0.1};
+};
+
+TEST_F(VoxelContactTest, AgreesWithALookAtEveryVoxel) {
+  std::array<int, 2> occupied{}, unobserved{};
+  for (const Shape& shape : Shapes()) {
+    const ShapeGeometry geometry(shape);
+    for (int i = 0; i < 60; ++i) {
+      const PlacedShape placed(geometry, random_.AnyPose(0.8));
+      const double margin_m = i % 3 == 0 ? random_.Uniform(0, 0.1) : 0;
+      const bool touches = TouchesOccupied(map_, placed, margin_m);
+      EXPECT_EQ(touches, Touches(placed, VoxelState::kOccupied, margin_m, {}));
+      ++occupied[touches];
+      const Eigen::Vector3d corner = random_.Vector(1);
+      std::vector<Aabb> known_free;
+      if (i % 2 == 0) known_free.push_back({corner.array() - 0.7, corner.array() + 0.7});
+      const bool unknown =
+          TouchesUnobserved(map_, placed, known_free, margin_m, [] { return false; });
+      EXPECT_EQ(unknown, Touches(placed, VoxelState::kUnknown, margin_m, known_free));
+      ++unobserved[unknown];
+    }
+  }
+  for (const int count : {occupied[0], occupied[1], unobserved[0], unobserved[1]}) {
+    EXPECT_GT(count, 10);
+  }
+}
+
+}  // namespace
+}  // namespace clearway
