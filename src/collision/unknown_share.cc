@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <set>
 
+#include "collision/cube_contact.h"
 #include "collision/voxel_search.h"
 
 namespace clearway {
@@ -13,6 +14,23 @@ struct Count {
   std::int64_t unknown = 0;
   double Share() const { return static_cast<double>(unknown) / static_cast<double>(all); }
 };
+
+// Whether a voxel in the boxes of the shapes was never observed: if none was, nothing has to be
+// counted.
+bool AnyUnobserved(const VoxelMap& map, const std::vector<const PlacedShape*>& shapes,
+                   const Cancelled& cancelled) {
+  for (const PlacedShape* shape : shapes) {
+    KeyRange keys;
+    if (!KeysTouching(map.grid(), shape->box_F(), keys)) continue;
+    const bool any = AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+                              [&](BlockKey key, const VoxelBlock* block) {
+                                if (block == nullptr) return true;
+                                return MaskOfRange(key, keys).Subtract(block->observed).Any();
+                              });
+    if (any || cancelled()) return true;
+  }
+  return false;
+}
 
 // Each voxel is counted with the first of the shapes that holds its centre.
 Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
@@ -27,8 +45,14 @@ Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
     };
     KeyRange keys;
     if (!KeysTouching(map.grid(), shapes[i]->box_F(), keys)) continue;
+    const CubeContact contact(*shapes[i], 0);
+    const double half_block_m = 0.5 * kBlockSize * map.grid().resolution_m();
     AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
              [&](BlockKey block_key, const VoxelBlock* block) {
+               const Eigen::Vector3d middle =
+                   map.grid().CenterOf(VoxelAt(block_key, 0)) +
+                   Eigen::Vector3d::Constant(half_block_m - 0.5 * map.grid().resolution_m());
+               if (contact.Of(middle, half_block_m) == CubeContact::Answer::kNo) return false;
                const BlockMask unobserved = UnobservedIn(block);
                MaskOfRange(block_key, keys).ForEach([&](int index) {
                  const Eigen::Vector3d center = map.grid().CenterOf(VoxelAt(block_key, index));
@@ -59,6 +83,7 @@ Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
 
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                       const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled) {
+  if (!AnyUnobserved(map_W, shapes_W, cancelled)) return 0;
   const Count inside = CountInside(map_W, known_free_W, shapes_W, cancelled);
   return inside.all > 0 ? inside.Share() : CountAtCenters(map_W, known_free_W, shapes_W).Share();
 }
