@@ -1,12 +1,15 @@
 #include "collision/cube_contact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace clearway {
 
 CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
     : shape_(shape), core_(shape.AsRoundedBox()) {
   const double reach_m = margin_m + (core_ ? core_->radius_m : 0);
+  is_box_ = core_ && reach_m == 0;
   near_m_ = std::max(reach_m - kRounding_m, 0.0);
   far_m_ = reach_m + kRounding_m;
 }
@@ -22,6 +25,32 @@ CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
   if (distance_m - half_edge_m * gap.sum() / distance_m > far_m_) return Answer::kNo;
   const double at_most_m = (gap - half_edge_m).max(0).matrix().norm();
   return at_most_m <= near_m_ ? Answer::kYes : Answer::kOpen;
+}
+
+// Two boxes are apart if and only if they are along one of 15 axes: their own and their cross
+// products (Gottschalk, Lin and Manocha, "OBBTree", 1996). R and `apart` are in F, k is G's axis.
+CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
+                                         double half_edge_m) const {
+  constexpr double kParallel = 1e-6;  // such a cross product says nothing that the axes do not
+  const Eigen::Matrix3d& R = core_->R_F_G;
+  const Eigen::Vector3d &half = core_->half_m, apart = center_F - core_->origin_F;
+  double gap_m = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double cube_m = half_edge_m * R.col(k).cwiseAbs().sum();
+    gap_m = std::max(gap_m, std::abs(R.col(k).dot(apart)) - half[k] - cube_m);
+    const double box_m = R.row(k).cwiseAbs().dot(half);
+    gap_m = std::max(gap_m, std::abs(apart[k]) - half_edge_m - box_m);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i).cross(R.col(k));
+      const double length = axis.norm();
+      if (length < kParallel) continue;
+      const double reach_m =
+          (R.transpose() * axis).cwiseAbs().dot(half) + half_edge_m * axis.cwiseAbs().sum();
+      gap_m = std::max(gap_m, (std::abs(axis.dot(apart)) - reach_m) / length);
+    }
+  }
+  if (gap_m > far_m_) return Answer::kNo;
+  return gap_m <= -kRounding_m ? Answer::kYes : Answer::kOpen;
 }
 
 CubeContact::Answer CubeContact::OfAnyShape(const Eigen::Vector3d& center_F,

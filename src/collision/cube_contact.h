@@ -24,7 +24,9 @@ class CubeContact {
     if (squared > beyond_ball_m * beyond_ball_m) return Answer::kNo;
     const double within_ball_m = half_edge_m + near_m_;
     if (squared <= within_ball_m * within_ball_m) return Answer::kYes;
-    return Between(core_->R_F_G * to_center, half_edge_m);
+    const Answer answer = Between(core_->R_F_G * to_center, half_edge_m);
+    if (answer != Answer::kOpen || !is_box_) return answer;
+    return OfBoxes(center_F, half_edge_m);
   }
 
  private:
@@ -37,10 +39,12 @@ class CubeContact {
     return p_G - p_G.cwiseMin(core_->half_m).cwiseMax(-core_->half_m);
   }
   Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
+  Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfAnyShape(const Eigen::Vector3d& center_F, double half_edge_m) const;
 
   const PlacedShape& shape_;
   std::optional<RoundedBox> core_;
+  bool is_box_;  // not rounded, and without a margin
   // A cube certainly touches if it is as near as near_m_ to the core, and does not beyond far_m_.
   double near_m_, far_m_;
 };
