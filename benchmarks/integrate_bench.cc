@@ -3,7 +3,6 @@
 // its moving objects, and depth images. Ours includes a frame's checks and the publication of a
 // version after each scan, while a reader still holds the one before.
 #include <benchmark/benchmark.h>
-#include <malloc.h>
 #include <octomap/OcTree.h>
 
 #include <chrono>
@@ -22,7 +21,11 @@ struct Input {
 };
 using InputPtr = std::shared_ptr<const Input>;
 
-double AllocatedMb() { return (mallinfo2().uordblks + mallinfo2().hblkhd) / 1e6; }
+double MapsMb(const SceneSnapshot& scene) {
+  std::size_t bytes = scene.static_map_W.blocks().MemoryBytes();
+  for (const auto& object : scene.objects) bytes += object->map_O.blocks().MemoryBytes();
+  return static_cast<double>(bytes) / 1e6;
+}
 
 // Returns the megabytes of the pruned tree.
 double Octomap(benchmark::State& state, const Input& input, bool discretize) {
@@ -48,9 +51,9 @@ double Octomap(benchmark::State& state, const Input& input, bool discretize) {
 }
 
 struct Cost {
-  double publish_ms =
-      0;                 // the longest from the end of an integration to its version being readable
-  double memory_mb = 0;  // what the last version alone has allocated
+  // The longest from the end of an integration to its version being readable.
+  double publish_ms = 0;
+  double memory_mb = 0;  // of the last version's maps, all indexes included
 };
 
 Cost Clearway(benchmark::State& state, const Input& input, bool discretize, int threads) {
@@ -71,9 +74,7 @@ Cost Clearway(benchmark::State& state, const Input& input, bool discretize, int 
       held = std::move(published);
     }
   }
-  const double with_mb = AllocatedMb();
-  held = nullptr;
-  return {publishing.count(), with_mb - AllocatedMb()};
+  return {publishing.count(), MapsMb(*held)};
 }
 
 void Add(const std::string& name, const Effort& effort,

@@ -37,35 +37,29 @@ std::uint32_t* BitWindow::Row(std::size_t row, int line) {
   return words_.data() + (strides_[1] * y + strides_[2] * z) / 32;
 }
 
-void BitWindow::TakeRow(std::span<BitWindow> windows, std::size_t row, std::vector<Block>& blocks) {
+void BitWindow::TakeRow(std::size_t row, std::vector<Block>& blocks) {
   constexpr int kLines = kBlockSize * kBlockSize;
-  const BlockKey size = windows[0].size_;
-  const std::size_t words = size.x / kBlocksPerWord;
-  std::vector<std::uint32_t> any(words);
-  for (BitWindow& window : windows) {
-    for (int line = 0; line < kLines; ++line) {
-      const std::uint32_t* source = window.Row(row, line);
-      for (std::size_t w = 0; w < words; ++w) any[w] |= source[w];
-    }
+  const std::size_t words = size_.x / kBlocksPerWord;
+  any_.assign(words, 0);
+  for (int line = 0; line < kLines; ++line) {
+    const std::uint32_t* source = Row(row, line);
+    for (std::size_t w = 0; w < words; ++w) any_[w] |= source[w];
   }
-  const BlockKey first = windows[0].first_;
-  const BlockKey row_key{first.x, first.y + static_cast<std::int32_t>(row % size.y),
-                         first.z + static_cast<std::int32_t>(row / size.y)};
+  const BlockKey row_key{first_.x, first_.y + static_cast<std::int32_t>(row % size_.y),
+                         first_.z + static_cast<std::int32_t>(row / size_.y)};
   for (std::size_t w = 0; w < words; ++w) {
-    if (any[w] == 0) continue;
+    if (any_[w] == 0) continue;
     std::array<BlockMask, kBlocksPerWord> masks{};
-    for (BitWindow& window : windows) {
-      for (int line = 0; line < kLines; ++line) {
-        std::uint32_t& word = window.Row(row, line)[w];
-        for (int b = 0; b < kBlocksPerWord; ++b) {
-          masks[b].words[line / kBlockSize] |= std::uint64_t{word >> 8 * b & 0xff}
-                                               << line % kBlockSize * kBlockSize;
-        }
-        word = 0;
+    for (int line = 0; line < kLines; ++line) {
+      std::uint32_t& word = Row(row, line)[w];
+      for (int b = 0; b < kBlocksPerWord; ++b) {
+        masks[b].words[line / kBlockSize] |= std::uint64_t{word >> 8 * b & 0xff}
+                                             << line % kBlockSize * kBlockSize;
       }
+      word = 0;
     }
     for (int b = 0; b < kBlocksPerWord; ++b) {
-      if ((any[w] >> 8 * b & 0xff) == 0) continue;
+      if ((any_[w] >> 8 * b & 0xff) == 0) continue;
       const auto x = row_key.x + static_cast<std::int32_t>(w) * kBlocksPerWord + b;
       blocks.push_back({{x, row_key.y, row_key.z}, masks[b]});
     }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "clearway/map/voxel_block.h"
@@ -12,7 +11,7 @@
 namespace clearway {
 
 // One bit for each voxel of a box of blocks, x fastest, so that a step to a neighbouring voxel is
-// one addition to the index of the bit. One thread at a time, but where said otherwise.
+// one addition to the index of the bit. One thread at a time.
 class BitWindow {
  public:
   // Whether a window from block `first` to block `last` is small enough to be worth its memory.
@@ -34,13 +33,12 @@ class BitWindow {
 
   // Rows of blocks along x.
   std::size_t rows() const { return static_cast<std::size_t>(size_.y) * size_.z; }
-  // The blocks of row `row` in which a bit is set in any of the windows, which must cover the same
-  // blocks; clears them. Threads may take different rows at once.
+  // Adds the blocks of row `row` in which a bit is set, and clears them.
   struct Block {
     BlockKey key;
     BlockMask mask;
   };
-  static void TakeRow(std::span<BitWindow> windows, std::size_t row, std::vector<Block>& blocks);
+  void TakeRow(std::size_t row, std::vector<Block>& blocks);
 
  private:
   static constexpr int kBlocksPerWord = 32 / kBlockSize;
@@ -52,6 +50,7 @@ class BitWindow {
   VoxelKey low_;
   std::array<std::int32_t, 3> strides_{};
   std::vector<std::uint32_t> words_;
+  std::vector<std::uint32_t> any_;  // of a row's lines, by TakeRow
 };
 
 }  // namespace clearway

@@ -3,9 +3,18 @@
 #include <algorithm>
 #include <bit>
 
+#include "map/block_memory.h"
+
 namespace clearway {
 
 namespace {
+
+void Prefetch(const void* memory, std::size_t bytes) {
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);  // may be 0
+  for (std::size_t line = 0; line < bytes; line += 64) {
+    __builtin_prefetch(reinterpret_cast<const void*>(address + line));
+  }
+}
 
 std::size_t HashOf(BlockKey key) {
   const auto mix = [](std::int32_t i, std::uint32_t factor) {
@@ -15,6 +24,11 @@ std::size_t HashOf(BlockKey key) {
 }
 
 }  // namespace
+
+void* BlockTree::Leaf::operator new(std::size_t bytes) { return TakeBlockMemory(bytes); }
+void BlockTree::Leaf::operator delete(void* memory, std::size_t bytes) {
+  GiveBackBlockMemory(memory, bytes);
+}
 
 void BlockTree::IndexRoots() {
   root_index_.assign(std::bit_ceil(2 * roots_.size() + 1), -1);
@@ -50,25 +64,48 @@ const VoxelBlock* BlockTree::Find(BlockKey key) const {
   return leaf == nullptr ? nullptr : &leaf->block;
 }
 
-void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+void BlockTree::FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const {
   constexpr std::size_t kAtOnce = 64;  // memory accesses under way
   static const Lower kNone;
   for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
     const std::size_t end = std::min(begin + kAtOnce, keys.size());
-    const boost::intrusive_ptr<Leaf>* leaves[kAtOnce];
+    const LeafPtr* places[kAtOnce];
     for (std::size_t i = begin; i < end; ++i) {
       const Lower* lower = FindLower(keys[i]);
-      leaves[i - begin] = &(lower == nullptr ? kNone : *lower).children[Slot(keys[i], 0)];
-      __builtin_prefetch(leaves[i - begin]);
+      places[i - begin] = &(lower == nullptr ? kNone : *lower).children[Slot(keys[i], 0)];
+      __builtin_prefetch(places[i - begin]);
     }
-    for (std::size_t i = begin; i < end; ++i) {
-      const Leaf* leaf = leaves[i - begin]->get();
-      blocks[i] = leaf == nullptr ? nullptr : &leaf->block;
-      const auto address = reinterpret_cast<std::uintptr_t>(leaf);  // may be 0
-      __builtin_prefetch(reinterpret_cast<const void*>(address));
-      __builtin_prefetch(reinterpret_cast<const void*>(address + 64));
+    for (std::size_t i = begin; i < end; ++i) leaves[i] = places[i - begin]->get();
+  }
+}
+
+void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+  constexpr std::size_t kAtOnce = 256;
+  const Leaf* leaves[kAtOnce];
+  for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, keys.size() - begin);
+    FindLeaves(keys.subspan(begin, count), leaves);
+    for (std::size_t i = 0; i < count; ++i) {
+      blocks[begin + i] = leaves[i] == nullptr ? nullptr : &leaves[i]->block;
+      Prefetch(blocks[begin + i], 2 * sizeof(BlockMask));
     }
   }
+}
+
+template <class Child>
+std::size_t BlockTree::BytesOf(const Branch<Child>& branch) {
+  std::size_t bytes = sizeof(branch);
+  for (const auto& child : branch.children) {
+    if (child != nullptr) bytes += BytesOf(*child);
+  }
+  return bytes;
+}
+
+std::size_t BlockTree::MemoryBytes() const {
+  std::size_t bytes =
+      roots_.capacity() * sizeof(Root) + root_index_.capacity() * sizeof(root_index_[0]);
+  for (const Root& root : roots_) bytes += BytesOf(*root.node);
+  return bytes;
 }
 
 // The node itself if this tree alone holds it, else a copy that it alone holds.
@@ -126,22 +163,29 @@ void BlockTree::Put(BlockKey key, const VoxelBlock& block) {
   PutLeaf(key, std::move(leaf));
 }
 
-// The blocks are made in parallel and put in their places by the caller alone.
+// The blocks are made in parallel and put in their places by the caller alone. Both wait for memory
+// more than for anything else: it is asked for ahead.
 void BlockTree::PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const MakeBlock& make) {
-  constexpr std::size_t kAtOnce = 256;
   static constexpr VoxelBlock kEmpty{};
+  std::vector<const Leaf*> old(keys.size());
   std::vector<LeafPtr> made(keys.size());
-  pool.ParallelChunks(keys.size(), kAtOnce, [&](int worker, std::size_t begin, std::size_t end) {
+  pool.ParallelChunks(keys.size(), 256, [&](int worker, std::size_t begin, std::size_t end) {
+    FindLeaves(keys.subspan(begin, end - begin), &old[begin]);
     LeafPtr leaf;
     for (std::size_t i = begin; i < end; ++i) {
-      const VoxelBlock* before = Find(keys[i]);
+      constexpr std::size_t kAhead = 2;
+      if (i + kAhead < end) Prefetch(old[i + kAhead], sizeof(Leaf));
       if (leaf == nullptr) leaf = new Leaf;
-      if (make(worker, i, before == nullptr ? kEmpty : *before, leaf->block)) {
-        made[i] = std::move(leaf);
-      }
+      const VoxelBlock& before = old[i] == nullptr ? kEmpty : old[i]->block;
+      if (make(worker, i, before, leaf->block)) made[i] = std::move(leaf);
     }
   });
   for (std::size_t i = 0; i < keys.size(); ++i) {
+    constexpr std::size_t kAhead = 8;
+    if (i + kAhead < keys.size()) {
+      Prefetch(made[i + kAhead].get(), 64 + 2 * sizeof(BlockMask));
+      Prefetch(old[i + kAhead], 64);  // its count of references
+    }
     if (made[i] != nullptr) PutLeaf(keys[i], std::move(made[i]));
   }
 }

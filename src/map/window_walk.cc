@@ -29,6 +29,19 @@ bool Step(WindowRay& ray, std::uint32_t* words) {
 
 }  // namespace
 
+WindowRay InWindow(const RayStart& start, const BitWindow& window) {
+  WindowRay ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.t_max[axis] = start.t_max[axis];
+    ray.t_delta[axis] = start.t_delta[axis];
+    ray.stride[axis] = start.step[axis] * window.strides()[axis];
+  }
+  ray.length_m = start.length_m;
+  ray.index = window.IndexOf(start.key);
+  ray.end = window.IndexOf(start.end);
+  return ray;
+}
+
 void WalkWindowPortable(std::span<const WindowRay> rays, std::uint32_t* words) {
   constexpr std::size_t kUnderWay = 4;  // the steps of one hide the latency of the others'
   std::array<WindowRay, kUnderWay> under_way;

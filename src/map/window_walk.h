@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "clearway/map/ray.h"
+#include "map/bit_window.h"
+
 namespace clearway {
 
 // A ray that WalkRay would walk, in the terms of a BitWindow.
@@ -15,6 +18,7 @@ struct WindowRay {
   std::int32_t index;      // of the origin's voxel
   std::int32_t end;        // of the end voxel
 };
+WindowRay InWindow(const RayStart& start, const BitWindow& window);
 
 // Sets the bit of every voxel that one of the rays visits: WalkRay's voxels, decision for decision.
 // All implementations set the same bits.

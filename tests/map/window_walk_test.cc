@@ -31,23 +31,13 @@ class WindowWalkTest : public testing::TestWithParam<Case> {
   void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
     WalkRay(grid_, origin, end, [&](VoxelKey key) { expected_.insert(key); });
     const RayStart start = StartRay(grid_, origin, end);
-    if (start.key == start.end) return;
-    WindowRay ray{};
-    for (int axis = 0; axis < 3; ++axis) {
-      ray.t_max[axis] = start.t_max[axis];
-      ray.t_delta[axis] = start.t_delta[axis];
-      ray.stride[axis] = start.step[axis] * window_.strides()[axis];
-    }
-    ray.length_m = start.length_m;
-    ray.index = window_.IndexOf(start.key);
-    ray.end = window_.IndexOf(start.end);
-    rays_.push_back(ray);
+    if (start.key != start.end) rays_.push_back(InWindow(start, window_));
   }
   void ExpectSameVoxels() {
     GetParam().walk(rays_, window_.words());
     std::vector<BitWindow::Block> blocks;
     for (std::size_t row = 0; row < window_.rows(); ++row) {
-      BitWindow::TakeRow({&window_, 1}, row, blocks);
+      window_.TakeRow(row, blocks);
     }
     std::set<VoxelKey> visited;
     for (const BitWindow::Block& block : blocks) {

@@ -45,6 +45,8 @@ class BlockTree {
   void PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const MakeBlock& make);
 
   std::size_t size() const { return size_; }
+  // Of all nodes, those shared with other copies too. Takes time in proportion to size().
+  std::size_t MemoryBytes() const;
 
   // Calls visit(BlockKey, const VoxelBlock&) for every block; the order depends on the keys alone.
   template <class Visit>
@@ -71,7 +73,9 @@ class BlockTree {
   static constexpr int kRootBits = 3 * kFanBits;  // a root is 64 blocks wide
 
   struct Leaf : boost::intrusive_ref_counter<Leaf> {
-    VoxelBlock block;
+    static void* operator new(std::size_t bytes);
+    static void operator delete(void* memory, std::size_t bytes);
+    alignas(64) VoxelBlock block;  // its masks: a cache line each
   };
   template <class Child>
   struct Branch : boost::intrusive_ref_counter<Branch<Child>> {
@@ -109,6 +113,9 @@ class BlockTree {
 
   template <class Node>
   static Node* Writable(boost::intrusive_ptr<Node>& node);
+  static std::size_t BytesOf(const Leaf&) { return sizeof(Leaf); }
+  template <class Child>
+  static std::size_t BytesOf(const Branch<Child>& branch);
   static bool AnyOccupied(const Leaf& leaf) { return leaf.block.occupied.Any(); }
   template <class Child>
   static bool AnyOccupied(const Branch<Child>& branch) {
@@ -133,6 +140,8 @@ class BlockTree {
 
   const Upper* FindRoot(BlockKey root_key) const;
   const Lower* FindLower(BlockKey key) const;
+  // leaves[i] is that of keys[i], null if there is none.
+  void FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const;
   void IndexRoots();
 
   std::vector<Root> roots_;  // ascending keys

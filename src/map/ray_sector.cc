@@ -1,0 +1,72 @@
+#include "map/ray_sector.h"
+
+#include "clearway/map/scan_update.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kRaysAtOnce = 2048;  // prepared before they are walked
+
+}  // namespace
+
+int RaySector::IndexOf(const Eigen::Vector3f& direction) {
+  int main_axis = 0;
+  direction.cwiseAbs().maxCoeff(&main_axis);
+  const int other_axis = main_axis == 0 ? 1 : 0;
+  return 4 * main_axis + 2 * (direction[main_axis] < 0) + (direction[other_axis] < 0);
+}
+
+void RaySector::Clear() {
+  rays_.clear();
+  box_.setEmpty();
+  blocks_.clear();
+}
+
+void RaySector::Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
+  rays_.push_back({origin, end});
+  box_.extend(origin).extend(end);
+}
+
+const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
+  if (rays_.empty()) return blocks_;
+  // A ray strays by less than a voxel from its segment.
+  const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
+    const VoxelKey key = grid.KeyOf(p.cast<double>());
+    return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
+  };
+  const BlockKey first = block_at(box_.min(), -2), last = block_at(box_.max(), 2);
+  if (BitWindow::Fits(first, last)) {
+    window_.Cover(first, last);
+    MarkInWindow(grid);
+  } else {
+    MarkSparsely(grid);
+  }
+  return blocks_;
+}
+
+void RaySector::MarkInWindow(const VoxelGrid& grid) {
+  static const WindowWalk walk = FastestWindowWalk();
+  std::vector<WindowRay> ready;
+  for (std::size_t begin = 0; begin < rays_.size(); begin += kRaysAtOnce) {
+    ready.clear();
+    for (std::size_t r = begin; r < std::min(begin + kRaysAtOnce, rays_.size()); ++r) {
+      const RayStart start = StartRay(grid, rays_[r].origin, rays_[r].end);
+      if (start.key != start.end) ready.push_back(InWindow(start, window_));
+    }
+    walk(ready, window_.words());
+  }
+  for (std::size_t row = 0; row < window_.rows(); ++row) window_.TakeRow(row, blocks_);
+}
+
+// Without a window, which would be too large.
+void RaySector::MarkSparsely(const VoxelGrid& grid) {
+  ScanUpdate update;
+  for (const Segment& ray : rays_) {
+    WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { update.MarkFree(key); });
+  }
+  for (std::size_t i = 0; i < update.keys().size(); ++i) {
+    blocks_.push_back({update.keys()[i], update.block(i).free});
+  }
+}
+
+}  // namespace clearway

@@ -1,0 +1,44 @@
+// The rays of a scan that run in similar directions.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "clearway/map/ray.h"
+#include "map/bit_window.h"
+#include "map/window_walk.h"
+
+namespace clearway {
+
+// A part of a cloud's rays with a window of its own, so that threads can walk different sectors at
+// once, each in memory that stays in its cache. Keeps its memory from one cloud to the next. One
+// thread at a time.
+class RaySector {
+ public:
+  // A sector is told by the axis and sign of the direction's largest component, and by the sign of
+  // another one: eight sectors look to the sides, two up and two down.
+  static constexpr int kCount = 12;
+  static int IndexOf(const Eigen::Vector3f& direction);
+
+  void Clear();
+  void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end);
+  std::size_t size() const { return rays_.size(); }
+
+  // Walks the rays: the voxels that WalkRay visits, by blocks, each block once. Valid until Clear.
+  const std::vector<BitWindow::Block>& Mark(const VoxelGrid& grid);
+
+ private:
+  struct Segment {
+    Eigen::Vector3f origin, end;
+  };
+
+  void MarkInWindow(const VoxelGrid& grid);
+  void MarkSparsely(const VoxelGrid& grid);
+
+  std::vector<Segment> rays_;
+  Eigen::AlignedBox3f box_;  // around them
+  BitWindow window_;
+  std::vector<BitWindow::Block> blocks_;
+};
+
+}  // namespace clearway
