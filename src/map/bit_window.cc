@@ -30,6 +30,27 @@ void BitWindow::Cover(BlockKey first, BlockKey last) {
   words_.resize(rows() * size_.x * kVoxelsPerBlock / 32);
 }
 
+bool BitWindow::AllSet(VoxelKey min, VoxelKey max) const {
+  const VoxelKey end{low_.x + size_.x * kBlockSize, low_.y + size_.y * kBlockSize,
+                     low_.z + size_.z * kBlockSize};
+  if (min.x < low_.x || min.y < low_.y || min.z < low_.z) return false;
+  if (max.x >= end.x || max.y >= end.y || max.z >= end.z) return false;
+  if (max.x - min.x >= 32) {
+    const VoxelKey half{min.x + 31, max.y, max.z};
+    return AllSet(min, half) && AllSet({min.x + 32, min.y, min.z}, max);
+  }
+  const std::uint64_t ones = (std::uint64_t{2} << (max.x - min.x)) - 1;
+  for (std::int32_t z = min.z; z <= max.z; ++z) {
+    for (std::int32_t y = min.y; y <= max.y; ++y) {
+      // The voxels along x lie in one word or two.
+      const std::int32_t first = IndexOf({min.x, y, z}), last = first + max.x - min.x;
+      const std::uint64_t two = words_[first >> 5] | std::uint64_t{words_[last >> 5]} << 32;
+      if ((two >> (first & 31) & ones) != ones) return false;
+    }
+  }
+  return true;
+}
+
 // The words of a line of voxels along x: line y + 8 z of the row's 64.
 std::uint32_t* BitWindow::Row(std::size_t row, int line) {
   const std::int64_t y = static_cast<std::int64_t>(row) % size_.y * kBlockSize + line % kBlockSize;

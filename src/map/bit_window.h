@@ -31,6 +31,9 @@ class BitWindow {
   bool Test(VoxelKey key) const { return words_[IndexOf(key) >> 5] >> (IndexOf(key) & 31) & 1; }
   void Set(VoxelKey key) { words_[IndexOf(key) >> 5] |= std::uint32_t{1} << (IndexOf(key) & 31); }
 
+  // Whether all voxels from `min` to `max` are set; false if one of them lies outside the window.
+  bool AllSet(VoxelKey min, VoxelKey max) const;
+
   // Rows of blocks along x.
   std::size_t rows() const { return static_cast<std::size_t>(size_.y) * size_.z; }
   // Adds the blocks of row `row` in which a bit is set, and clears them.

@@ -16,9 +16,10 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
                     const Eigen::Vector3f& end) {
   const Eigen::Vector3f target =
       options.discretize ? grid.CenterOf(grid.KeyOf(end.cast<double>())).cast<float>().eval() : end;
+  if (options.max_range_m < 0) return {target, true};
   const Eigen::Vector3f difference = target - origin;
   const double length_m = Norm(difference);
-  if (options.max_range_m < 0 || length_m <= options.max_range_m) return {target, true};
+  if (length_m <= options.max_range_m) return {target, true};
   const Eigen::Vector3f direction = difference / static_cast<float>(length_m);
   return {origin + direction * static_cast<float>(options.max_range_m), false};
 }

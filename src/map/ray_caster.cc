@@ -21,9 +21,9 @@ struct PreparedRay {
   int sector;
 };
 
-std::vector<PreparedRay> Prepare(const VoxelGrid& grid, const RayCloud& cloud,
-                                 const RayOptions& options, ThreadPool& pool) {
-  std::vector<PreparedRay> rays(cloud.ends.size());
+void Prepare(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options,
+             ThreadPool& pool, std::vector<PreparedRay>& rays) {
+  rays.resize(cloud.ends.size());
   pool.ParallelFor(rays.size(), [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f& origin = OriginOf(cloud, i);
@@ -32,7 +32,6 @@ std::vector<PreparedRay> Prepare(const VoxelGrid& grid, const RayCloud& cloud,
                  RaySector::IndexOf(limited.end - origin)};
     }
   });
-  return rays;
 }
 
 // Calls walk(i) for the rays that are walked: all, or with `distinct` the first one into each voxel
@@ -53,6 +52,8 @@ struct RayCaster::Impl {
   explicit Impl(ThreadPool& the_pool) : pool(the_pool) {}
 
   ThreadPool& pool;
+  // Of the cloud at hand; their memory is kept for the next.
+  std::vector<PreparedRay> rays;
   std::array<RaySector, RaySector::kCount> sectors;
 
   void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
@@ -84,7 +85,8 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
                            const RayOptions& options) {
   ScanUpdate update;
   if (cloud.ends.empty()) return update;
-  const std::vector<PreparedRay> rays = Prepare(grid, cloud, options, impl_->pool);
+  std::vector<PreparedRay>& rays = impl_->rays;
+  Prepare(grid, cloud, options, impl_->pool, rays);
   for (RaySector& sector : impl_->sectors) sector.Clear();
   const bool distinct = options.discretize && cloud.origins.size() == 1;
   ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {

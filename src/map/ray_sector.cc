@@ -1,17 +1,12 @@
 #include "map/ray_sector.h"
 
+#include "clearway/map/ray.h"
 #include "clearway/map/scan_update.h"
 
 namespace clearway {
-namespace {
-
-constexpr std::size_t kRaysAtOnce = 2048;  // prepared before they are walked
-
-}  // namespace
 
 int RaySector::IndexOf(const Eigen::Vector3f& direction) {
-  int main_axis = 0;
-  direction.cwiseAbs().maxCoeff(&main_axis);
+  const int main_axis = MainAxis(direction);
   const int other_axis = main_axis == 0 ? 1 : 0;
   return 4 * main_axis + 2 * (direction[main_axis] < 0) + (direction[other_axis] < 0);
 }
@@ -35,33 +30,20 @@ const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
     return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
   };
   const BlockKey first = block_at(box_.min(), -2), last = block_at(box_.max(), 2);
-  if (BitWindow::Fits(first, last)) {
-    window_.Cover(first, last);
-    MarkInWindow(grid);
-  } else {
+  if (!BitWindow::Fits(first, last)) {
     MarkSparsely(grid);
+    return blocks_;
   }
-  return blocks_;
-}
-
-void RaySector::MarkInWindow(const VoxelGrid& grid) {
-  static const WindowWalk walk = FastestWindowWalk();
-  std::vector<WindowRay> ready;
-  for (std::size_t begin = 0; begin < rays_.size(); begin += kRaysAtOnce) {
-    ready.clear();
-    for (std::size_t r = begin; r < std::min(begin + kRaysAtOnce, rays_.size()); ++r) {
-      const RayStart start = StartRay(grid, rays_[r].origin, rays_[r].end);
-      if (start.key != start.end) ready.push_back(InWindow(start, window_));
-    }
-    walk(ready, window_.words());
-  }
+  window_.Cover(first, last);
+  MarkRays(grid, rays_, window_);
   for (std::size_t row = 0; row < window_.rows(); ++row) window_.TakeRow(row, blocks_);
+  return blocks_;
 }
 
 // Without a window, which would be too large.
 void RaySector::MarkSparsely(const VoxelGrid& grid) {
   ScanUpdate update;
-  for (const Segment& ray : rays_) {
+  for (const RaySegment& ray : rays_) {
     WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { update.MarkFree(key); });
   }
   for (std::size_t i = 0; i < update.keys().size(); ++i) {

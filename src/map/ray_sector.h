@@ -4,9 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "clearway/map/ray.h"
 #include "map/bit_window.h"
-#include "map/window_walk.h"
+#include "map/mark_rays.h"
 
 namespace clearway {
 
@@ -28,14 +27,9 @@ class RaySector {
   const std::vector<BitWindow::Block>& Mark(const VoxelGrid& grid);
 
  private:
-  struct Segment {
-    Eigen::Vector3f origin, end;
-  };
-
-  void MarkInWindow(const VoxelGrid& grid);
   void MarkSparsely(const VoxelGrid& grid);
 
-  std::vector<Segment> rays_;
+  std::vector<RaySegment> rays_;
   Eigen::AlignedBox3f box_;  // around them
   BitWindow window_;
   std::vector<BitWindow::Block> blocks_;

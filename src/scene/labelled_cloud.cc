@@ -14,21 +14,28 @@ RayEnd KindOf(const Frame& frame, std::size_t i) {
   return frame.labels[i] == kStaticLabel ? RayEnd::kHit : RayEnd::kBlock;
 }
 
+struct PlacedRay {
+  Eigen::Vector3d end_W, origin_W;
+};
+
+PlacedRay PlaceRay(const Frame& frame, std::size_t i, const Pose& T_W_S) {
+  return {T_W_S * frame.points_S[i].cast<double>(),
+          frame.origins_S.empty() ? T_W_S.translation : T_W_S * frame.origins_S[i].cast<double>()};
+}
+
 // Null if the point is used; else where it is counted.
-std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i,
-                                           const SceneParams& params, const Pose& T_W_S,
-                                           const VoxelGrid& grid) {
+std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i, const PlacedRay& ray,
+                                           const SceneParams& params, const VoxelGrid& grid) {
   if (frame.labels[i] == kIgnoreLabel) return &FrameReport::points_ignored;
   if (!frame.points_S[i].allFinite() ||
       (!frame.origins_S.empty() && !frame.origins_S[i].allFinite())) {
     return &FrameReport::points_not_finite;
   }
-  const Eigen::Vector3d p_S = frame.points_S[i].cast<double>();
-  if (InAny(params.self_filter_S, p_S)) return &FrameReport::points_self;
-  const Eigen::Vector3d p_W = T_W_S * p_S;
-  const Eigen::Vector3d origin_W =
-      frame.origins_S.empty() ? T_W_S.translation : T_W_S * frame.origins_S[i].cast<double>();
-  if (!params.bounds_W.Contains(p_W) || !grid.Addressable(p_W) || !grid.Addressable(origin_W)) {
+  if (InAny(params.self_filter_S, frame.points_S[i].cast<double>())) {
+    return &FrameReport::points_self;
+  }
+  if (!params.bounds_W.Contains(ray.end_W) || !grid.Addressable(ray.end_W) ||
+      !grid.Addressable(ray.origin_W)) {
     return &FrameReport::points_out_of_bounds;
   }
   return nullptr;
@@ -39,25 +46,25 @@ std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i,
 LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameReport& report) {
   const VoxelGrid grid(params.resolution_m);
   const Pose T_W_S{frame.T_W_S.rotation.normalized(), frame.T_W_S.translation};
+  const std::size_t size = frame.points_S.size();
   LabelledCloud cloud;
-  cloud.ends_W.reserve(frame.points_S.size());
+  cloud.ends_W.reserve(size);
+  cloud.kinds.reserve(size);
+  cloud.labels.reserve(size);
   if (frame.origins_S.empty()) cloud.origins_W = {T_W_S.translation.cast<float>()};
-  for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
-    if (auto counter = ReasonToLeaveOut(frame, i, params, T_W_S, grid)) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const PlacedRay ray = PlaceRay(frame, i, T_W_S);
+    if (auto counter = ReasonToLeaveOut(frame, i, ray, params, grid)) {
       ++(report.*counter);
       continue;
     }
     ++report.points_used;
-    cloud.ends_W.push_back((T_W_S * frame.points_S[i].cast<double>()).cast<float>());
+    cloud.ends_W.push_back(ray.end_W.cast<float>());
     cloud.kinds.push_back(KindOf(frame, i));
     cloud.labels.push_back(frame.labels[i]);
-    if (!frame.origins_S.empty()) {
-      cloud.origins_W.push_back((T_W_S * frame.origins_S[i].cast<double>()).cast<float>());
-    }
+    if (!frame.origins_S.empty()) cloud.origins_W.push_back(ray.origin_W.cast<float>());
     if (cloud.kinds.back() != RayEnd::kBlock) continue;
-    const Eigen::Vector3f& origin =
-        cloud.origins_W.size() == 1 ? cloud.origins_W.front() : cloud.origins_W.back();
-    if (LimitRay(grid, params.rays, origin, cloud.ends_W.back()).within_range) {
+    if (LimitRay(grid, params.rays, ray.origin_W.cast<float>(), cloud.ends_W.back()).within_range) {
       cloud.object_hits[frame.labels[i]].push_back(
           static_cast<std::uint32_t>(cloud.ends_W.size() - 1));
     }

@@ -57,6 +57,35 @@ TEST(BitWindow, GivesWhatIsSetBlockByBlockAndIsThenClear) {
   }
 }
 
+TEST(BitWindow, AllSetAsVoxelByVoxel) {
+  BitWindow dut;
+  dut.Cover({-2, -1, 0}, {9, 1, 1});
+  Random random(2);
+  for (int x = -16; x < 80; ++x) {
+    for (int y = -8; y < 16; ++y) {
+      for (int z = 0; z < 16; ++z) {
+        if (random.Integer(0, 199) != 0) dut.Set({x, y, z});
+      }
+    }
+  }
+  int all = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const VoxelKey min{random.Integer(-18, 79), random.Integer(-9, 15), random.Integer(-1, 15)};
+    const VoxelKey max{min.x + random.Integer(0, i % 4 == 0 ? 70 : 3), min.y + random.Integer(0, 2),
+                       min.z + random.Integer(0, 2)};
+    bool expected =
+        min.x >= -16 && min.y >= -8 && min.z >= 0 && max.x < 80 && max.y < 16 && max.z < 16;
+    for (int x = min.x; x <= max.x; ++x) {
+      for (int y = min.y; y <= max.y; ++y) {
+        for (int z = min.z; z <= max.z; ++z) expected = expected && dut.Test({x, y, z});
+      }
+    }
+    ASSERT_EQ(dut.AllSet(min, max), expected);
+    all += expected;
+  }
+  EXPECT_GT(all, 500);
+}
+
 TEST(BitWindow, DoesNotFitTheWholeWorld) {
   EXPECT_TRUE(BitWindow::Fits({-70, -70, -10}, {70, 70, 10}));
   constexpr std::int32_t kFar = kMaxVoxelIndex / kBlockSize;

@@ -1,0 +1,81 @@
+#include "map/marked_cones.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway {
+namespace {
+
+// Rays are taken to stray this far from their lines; rounding makes it a thousandth of that.
+constexpr double kStrayVoxels = 1e-2;
+
+std::int32_t RoundDown(double value) {
+  const auto toward_zero = static_cast<std::int32_t>(value);
+  return toward_zero - static_cast<std::int32_t>(value < toward_zero);
+}
+
+}  // namespace
+
+MarkedCones::MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, int main_axis,
+                         bool negative, int across)
+    : resolution_m_(grid.resolution_m()),
+      axis_(main_axis),
+      b_((main_axis + 1) % 3),
+      c_((main_axis + 2) % 3),
+      sign_(negative ? -1 : 1),
+      across_(across),
+      cones_(static_cast<std::size_t>(across) * across) {
+  const VoxelKey voxel = grid.KeyOf(origin);
+  origin_voxel_ = {voxel.x, voxel.y, voxel.z};
+  for (int i = 0; i < 3; ++i) origin_[i] = origin[i] / resolution_m_;
+  const double passed = origin_[axis_] - origin_voxel_[axis_];
+  first_layer_ = std::clamp(negative ? passed : 1 - passed, 0.0, 1.0);
+}
+
+double MarkedCones::Depth_m(const Eigen::Vector3f& direction, const BitWindow& window) {
+  const float half = 0.5f * static_cast<float>(across_);
+  const float scale = half / std::abs(direction[axis_]);
+  const auto along = [&](int axis) {
+    return std::clamp(static_cast<int>(half + scale * direction[axis]), 0, across_ - 1);
+  };
+  const int index = along(b_) + across_ * along(c_);
+  Cone& cone = cones_[index];
+  if (!cone.looked) {
+    Look(index, window);
+  }
+  return (LayerBegin(cone.layers) - kStrayVoxels) * resolution_m_;
+}
+
+void MarkedCones::NextRound() {
+  for (Cone& cone : cones_) cone.looked = false;
+}
+
+void MarkedCones::Look(int index, const BitWindow& window) {
+  // The cone's least and greatest slopes, widened by what Depth_m rounds.
+  struct Slopes {
+    double least, most;
+  };
+  const auto slopes_of = [this](int cell) -> Slopes {
+    constexpr double kRounding = 1e-3;
+    return {2 * (cell - kRounding) / across_ - 1, 2 * (cell + 1 + kRounding) / across_ - 1};
+  };
+  const Slopes b = slopes_of(index % across_), c = slopes_of(index / across_);
+  Cone& cone = cones_[index];
+  cone.looked = true;
+  for (;; ++cone.layers) {
+    const double near = LayerBegin(cone.layers), far = LayerBegin(cone.layers + 1);
+    std::array<std::int32_t, 3> min, max;
+    min[axis_] = max[axis_] = origin_voxel_[axis_] + sign_ * cone.layers;
+    const auto spread = [&](int axis, const Slopes& slopes) {
+      const double least = slopes.least * (slopes.least < 0 ? far : near);
+      const double most = slopes.most * (slopes.most < 0 ? near : far);
+      min[axis] = RoundDown(origin_[axis] + least - kStrayVoxels);
+      max[axis] = RoundDown(origin_[axis] + most + kStrayVoxels);
+    };
+    spread(b_, b);
+    spread(c_, c);
+    if (!window.AllSet({min[0], min[1], min[2]}, {max[0], max[1], max[2]})) return;
+  }
+}
+
+}  // namespace clearway

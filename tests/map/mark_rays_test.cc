@@ -1,0 +1,90 @@
+#include "map/mark_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "clearway/map/ray.h"
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+constexpr double kResolution_m = 0.05;
+
+std::set<VoxelKey> Marked(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
+  BitWindow window;
+  window.Cover({-16, -16, -16}, {15, 15, 15});  // 6.4 m to each side
+  MarkRays(grid, rays, window);
+  std::vector<BitWindow::Block> blocks;
+  for (std::size_t row = 0; row < window.rows(); ++row) window.TakeRow(row, blocks);
+  std::set<VoxelKey> voxels;
+  for (const BitWindow::Block& block : blocks) {
+    block.mask.ForEach([&](int i) { voxels.insert(VoxelAt(block.key, i)); });
+  }
+  return voxels;
+}
+
+std::set<VoxelKey> Walked(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
+  std::set<VoxelKey> voxels;
+  for (const RaySegment& ray : rays) {
+    WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { voxels.insert(key); });
+  }
+  return voxels;
+}
+
+// Rays in rows and columns, as a camera looking along the axis sees a jagged surface: so dense that
+// most of their steps add nothing, and with gaps.
+std::vector<RaySegment> Image(const Eigen::Vector3f& origin, int axis, float sign, Random& random) {
+  std::vector<RaySegment> rays;
+  constexpr int kPixels = 160;
+  for (int v = 0; v < kPixels; ++v) {
+    for (int u = 0; u < kPixels; ++u) {
+      if (random.Integer(0, 9) == 0) continue;
+      const float depth_m = (u / 40 + v / 40) % 2 == 0 ? 3.5f : 2 + 0.01f * static_cast<float>(u);
+      Eigen::Vector3f end = origin;
+      end[axis] += sign * depth_m;
+      end[(axis + 1) % 3] += depth_m * (static_cast<float>(u) / kPixels - 0.5f);
+      end[(axis + 2) % 3] += depth_m * (static_cast<float>(v) / kPixels - 0.5f);
+      rays.push_back({origin, end});
+    }
+  }
+  return rays;
+}
+
+TEST(MarkRays, EmptyWithoutRays) { EXPECT_TRUE(Marked(VoxelGrid(kResolution_m), {}).empty()); }
+
+TEST(MarkRays, DenseRaysMarkWhatEachOfThemPasses) {
+  const VoxelGrid grid(kResolution_m);
+  Random random(4);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      const std::vector<RaySegment> rays =
+          Image(random.Vector(1).cast<float>(), axis, sign, random);
+      EXPECT_EQ(Marked(grid, rays), Walked(grid, rays)) << axis << " " << sign;
+    }
+  }
+}
+
+TEST(MarkRays, FromTheBorderOfAVoxel) {
+  const VoxelGrid grid(kResolution_m);
+  Random random(5);
+  for (const float origin : {0.0f, 0.5f, -0.25f}) {
+    const auto rays = Image(Eigen::Vector3f::Constant(origin), 0, 1, random);
+    EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+  }
+}
+
+TEST(MarkRays, FromManyOrigins) {
+  const VoxelGrid grid(kResolution_m);
+  Random random(6);
+  std::vector<RaySegment> rays = Image({0, 0, 0}, 1, 1, random);
+  for (RaySegment& ray : rays) ray.origin += random.Vector(0.3).cast<float>();
+  EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+}
+
+}  // namespace
+}  // namespace clearway

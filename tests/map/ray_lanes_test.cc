@@ -1,0 +1,108 @@
+#include "map/ray_lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+struct Segment {
+  Eigen::Vector3f origin, end;
+};
+using Segments = std::array<Segment, kRayLanes>;
+
+RayLanes Started(const VoxelGrid& grid, const Segments& segments) {
+  LaneFloats origin[3], end[3];
+  for (int lane = 0; lane < kRayLanes; ++lane) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis][lane] = segments[lane].origin[axis];
+      end[axis][lane] = segments[lane].end[axis];
+    }
+  }
+  RayLanes lanes;
+  StartLanes(grid, origin, end, lanes);
+  return lanes;
+}
+
+VoxelKey KeyIn(const LaneInts (&key)[3], int lane) {
+  return {key[0][lane], key[1][lane], key[2][lane]};
+}
+
+Segments RandomSegments(Random& random) {
+  Segments segments;
+  for (Segment& segment : segments) {
+    segment = {random.Vector(5).cast<float>(), random.Vector(40).cast<float>()};
+    // Along an axis, in a plane, or to where it begins.
+    for (int axis = 0; axis < 3; ++axis) {
+      if (random.Integer(0, 5) == 0) segment.end[axis] = segment.origin[axis];
+    }
+  }
+  return segments;
+}
+
+TEST(RayLanes, StartsAsOneRayDoes) {
+  Random random(1);
+  for (const double resolution_m : {0.05, 0.1, 0.37}) {
+    const VoxelGrid grid(resolution_m);
+    for (int round = 0; round < 500; ++round) {
+      const Segments segments = RandomSegments(random);
+      const RayLanes lanes = Started(grid, segments);
+      for (int lane = 0; lane < kRayLanes; ++lane) {
+        if (segments[lane].origin == segments[lane].end) continue;  // no direction
+        const RayStart one = StartRay(grid, segments[lane].origin, segments[lane].end);
+        ASSERT_EQ(KeyIn(lanes.key, lane), one.key);
+        ASSERT_EQ(KeyIn(lanes.end, lane), one.end);
+        ASSERT_EQ(lanes.length_m[lane], one.length_m);
+        for (int axis = 0; axis < 3; ++axis) {
+          ASSERT_EQ(lanes.step[axis][lane], one.step[axis]);
+          ASSERT_EQ(lanes.t_max[axis][lane], one.t_max[axis]);
+          ASSERT_EQ(lanes.t_delta[axis][lane], one.t_delta[axis]);
+        }
+      }
+    }
+  }
+}
+
+// What WalkRay has made of the ray before `until_m`.
+RayStart WalkedTo(RayStart ray, double until_m) {
+  std::int32_t* const index[3] = {&ray.key.x, &ray.key.y, &ray.key.z};
+  auto& t_max = ray.t_max;
+  while (true) {
+    const int axis =
+        t_max[0] < t_max[1] ? (t_max[0] < t_max[2] ? 0 : 2) : (t_max[1] < t_max[2] ? 1 : 2);
+    if (t_max[axis] >= until_m) return ray;
+    *index[axis] += ray.step[axis];
+    t_max[axis] += ray.t_delta[axis];
+  }
+}
+
+TEST(RayLanes, SkipsToWhereAWalkWouldBe) {
+  const VoxelGrid grid(0.1);
+  Random random(2);
+  for (int round = 0; round < 500; ++round) {
+    const Segments segments = RandomSegments(random);
+    RayLanes lanes = Started(grid, segments);
+    LaneDoubles until_m;
+    for (int lane = 0; lane < kRayLanes; ++lane) {
+      until_m[lane] = random.Uniform(-0.2, 1) * (lanes.length_m[lane] - 0.2);
+    }
+    SkipLanes(lanes, until_m);
+    for (int lane = 0; lane < kRayLanes; ++lane) {
+      if (segments[lane].origin == segments[lane].end) continue;
+      const RayStart one =
+          WalkedTo(StartRay(grid, segments[lane].origin, segments[lane].end), until_m[lane]);
+      ASSERT_EQ(KeyIn(lanes.key, lane), one.key);
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_EQ(lanes.t_max[axis][lane], one.t_max[axis]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clearway
