@@ -11,6 +11,8 @@
 namespace clearway::bench {
 namespace {
 
+constexpr double kPeriod_s = 0.1;  // between frames
+
 ScenePtr Integrate(const std::vector<Frame>& scans) {
   ThreadPool pool(1);
   SceneParams params;
@@ -36,15 +38,16 @@ std::shared_ptr<octomap::OcTree> ToOctomap(const VoxelMap& map) {
 
 }  // namespace
 
-ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W) {
-  ThreadPool pool(1);
-  SceneBuilder builder(scene.params, {}, pool);
+std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d& center_W,
+                                     int frames) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
-  for (const double ahead_s : {-0.1, 0.0}) {
-    Frame frame;
-    frame.sequence = ahead_s < 0 ? 1 : 2;
+  std::vector<Frame> made;
+  for (int k = 0; k < frames; ++k) {
+    const double ahead_s = kPeriod_s * (k + 1 - frames);
+    Frame& frame = made.emplace_back();
+    frame.sequence = static_cast<std::uint64_t>(k + 1);
     frame.T_W_S.translation = center_W;
-    frame.stamp = scene.stamp + FromSeconds(ahead_s);
+    frame.stamp = last + FromSeconds(ahead_s);
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d velocity_W(std::cos(i), std::sin(i), 0);
       const Eigen::Vector3d middle_W =
@@ -55,10 +58,18 @@ ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3
         frame.points_S.push_back((middle_W - center_W + 2 * offset).cast<float>());
         frame.labels.push_back(i + 1);
       }
-      if (ahead_s < 0) continue;
-      const Pose H_W{Eigen::Quaterniond::Identity(), 0.1 * velocity_W};
-      frame.motions.push_back({i + 1, H_W, frame.stamp - FromSeconds(0.1)});
+      if (k == 0) continue;
+      const Pose H_W{Eigen::Quaterniond::Identity(), kPeriod_s * velocity_W};
+      frame.motions.push_back({i + 1, H_W, frame.stamp - FromSeconds(kPeriod_s)});
     }
+  }
+  return made;
+}
+
+ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W) {
+  ThreadPool pool(1);
+  SceneBuilder builder(scene.params, {}, pool);
+  for (const Frame& frame : FramesWithObjects(scene.stamp, count, center_W, 2)) {
     if (!builder.Apply(frame).ok()) std::abort();
   }
   auto with = std::make_shared<SceneSnapshot>(scene);

@@ -20,8 +20,13 @@ struct DriveMap {
 };
 DriveMap MakeDriveMap(std::size_t scans);
 
-// The scene with `count` moving objects of 2 x 2 x 2 m besides, in a square around `center_W` and 5
-// m apart; each goes its own way at 1 m/s.
+// Frames, the last of them at `last`, 0.1 s apart, in which a sensor at `center_W` sees the corners
+// of `count` moving objects of 2 x 2 x 2 m, in a square around it and 5 m apart; each goes its own
+// way at 1 m/s.
+std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d& center_W,
+                                     int frames);
+
+// The scene with those objects besides.
 ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W);
 
 class Dice {

@@ -155,6 +155,9 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.history_s", scene.history, "how far back poses are kept"),
       CLEARWAY_SETTING("scene.rest_distance_m", scene.rest_distance_m,
                        "objects that stay within it for a second are at rest"),
+      CLEARWAY_SETTING(
+          "scene.keep_distance_m", scene.keep_distance_m,
+          "what of the static map lies farther from the sensor is forgotten; 0: nothing"),
       CLEARWAY_SETTING("scene.bounds_m", scene.bounds_W, "box: x y z of its corners"),
       CLEARWAY_SETTING("scene.keep_out_m", scene.keep_out_W, "boxes that read as occupied"),
       CLEARWAY_SETTING("scene.self_filter_m", scene.self_filter_S,

@@ -60,6 +60,7 @@ Json ParamsJson(const SceneParams& p) {
           {"object_lifetime_s", ToSeconds(p.object_lifetime)},
           {"history_s", ToSeconds(p.history)},
           {"rest_distance_m", p.rest_distance_m},
+          {"keep_distance_m", p.keep_distance_m},
           {"bounds_world", ToJson(p.bounds_W)},
           {"keep_out_boxes", p.keep_out_W.size()},
           {"self_filter_boxes", p.self_filter_S.size()}};

@@ -16,6 +16,11 @@ void Prefetch(const void* memory, std::size_t bytes) {
   }
 }
 
+// Whether both lie in one branch, `bits` bits of their keys apart.
+bool Share(BlockKey a, BlockKey b, int bits) {
+  return ((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z)) >> bits == 0;
+}
+
 std::size_t HashOf(BlockKey key) {
   const auto mix = [](std::int32_t i, std::uint32_t factor) {
     return static_cast<std::uint32_t>(i) * factor;
@@ -70,9 +75,13 @@ void BlockTree::FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) 
   for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
     const std::size_t end = std::min(begin + kAtOnce, keys.size());
     const LeafPtr* places[kAtOnce];
+    const Lower* lower = nullptr;
     for (std::size_t i = begin; i < end; ++i) {
-      const Lower* lower = FindLower(keys[i]);
-      places[i - begin] = &(lower == nullptr ? kNone : *lower).children[Slot(keys[i], 0)];
+      if (i == begin || !Share(keys[i], keys[i - 1], kFanBits)) {
+        lower = FindLower(keys[i]);
+        if (lower == nullptr) lower = &kNone;
+      }
+      places[i - begin] = &lower->children[Slot(keys[i], 0)];
       __builtin_prefetch(places[i - begin]);
     }
     for (std::size_t i = begin; i < end; ++i) leaves[i] = places[i - begin]->get();
@@ -90,6 +99,31 @@ void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** block
       Prefetch(blocks[begin + i], 2 * sizeof(BlockMask));
     }
   }
+}
+
+template <class Node>
+void BlockTree::AddKeysOutside(const Node& node, BlockKey base, BlockKey min, BlockKey max,
+                               std::vector<BlockKey>& keys) {
+  if constexpr (std::is_same_v<Node, Leaf>) {
+    keys.push_back(base);
+  } else {
+    constexpr int shift = ShiftBelow(static_cast<const Node*>(nullptr));
+    for (std::uint64_t used = node.used; used != 0; used &= used - 1) {
+      const int slot = std::countr_zero(used);
+      const BlockKey first = ChildKey(base, slot, shift);
+      constexpr std::int32_t kWidth = (1 << shift) - 1;
+      const BlockKey last{first.x + kWidth, first.y + kWidth, first.z + kWidth};
+      const bool inside = min.x <= first.x && last.x <= max.x && min.y <= first.y &&
+                          last.y <= max.y && min.z <= first.z && last.z <= max.z;
+      if (!inside) AddKeysOutside(*node.children[slot], first, min, max, keys);
+    }
+  }
+}
+
+std::vector<BlockKey> BlockTree::KeysOutside(BlockKey min, BlockKey max) const {
+  std::vector<BlockKey> keys;
+  for (const Root& root : roots_) AddKeysOutside(*root.node, FirstBlockOf(root), min, max, keys);
+  return keys;
 }
 
 template <class Child>

@@ -87,6 +87,16 @@ void VoxelMap::Forget(const Aabb& box) {
   for (const auto& [key, block] : changed) PutBlock(key, block);
 }
 
+void VoxelMap::ForgetBlocksOutside(const Aabb& box) {
+  const double limit_m = grid_.limit_m();
+  const auto block_at = [&](const Eigen::Vector3d& p) {
+    return BlockOf(grid_.KeyOf(p.cwiseMax(-limit_m).cwiseMin(limit_m)));
+  };
+  for (const BlockKey key : blocks_.KeysOutside(block_at(box.min), block_at(box.max))) {
+    PutBlock(key, kEmptyBlock);
+  }
+}
+
 Aabb VoxelMap::ObservedBox() const {
   return BoxAround(*this, [](const VoxelBlock& b) -> const BlockMask& { return b.observed; });
 }

@@ -96,7 +96,11 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     }
   }
   static_map_W.Update(caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays),
-                      *pool_);            // II-B, II-C
+                      *pool_);  // II-B, II-C
+  if (const double keep_m = scene_.params.keep_distance_m; keep_m > 0) {
+    const Eigen::Vector3d& sensor_W = frame.T_W_S.translation;
+    static_map_W.ForgetBlocksOutside({sensor_W.array() - keep_m, sensor_W.array() + keep_m});
+  }
   for (const auto& [id, clue] : clues) {  // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =

@@ -80,6 +80,7 @@ void ContentHasher::Add(const SceneParams& params) {
     Add(std::int64_t{duration.count()});
   }
   Add(params.rest_distance_m);
+  Add(params.keep_distance_m);
   Add(params.bounds_W);
   Add(params.keep_out_W);
   Add(params.self_filter_S);

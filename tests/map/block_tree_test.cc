@@ -95,6 +95,23 @@ TEST(BlockTree, ForEachInVisitsTheBoxAlone) {
   EXPECT_GT(visited, 10u);
 }
 
+TEST(BlockTree, KeysOutsideAreThoseNotInTheBox) {
+  Random random(8);
+  BlockTree dut;
+  EXPECT_TRUE(dut.KeysOutside({0, 0, 0}, {0, 0, 0}).empty());
+  for (int i = 0; i < 3000; ++i) dut.Put(RandomKey(random), BlockWith(0, 1));
+  for (const auto& [low, high] : {std::pair<BlockKey, BlockKey>{{-3, -200, 0}, {5, 100, 3}},
+                                  {{-64, -64, -64}, {63, 63, 63}},
+                                  {{-4000, -4000, -4000}, {4000, 4000, 4000}}}) {
+    std::vector<BlockKey> expected;
+    dut.ForEach([&](BlockKey k, const VoxelBlock&) {
+      if (k.x < low.x || k.y < low.y || k.z < low.z || k.x > high.x || k.y > high.y || k.z > high.z)
+        expected.push_back(k);
+    });
+    EXPECT_EQ(dut.KeysOutside(low, high), expected);
+  }
+}
+
 TEST(BlockTree, AnyOccupiedInVisitsOccupiedBlocksInTheBox) {
   Random random(6);
   BlockTree dut;

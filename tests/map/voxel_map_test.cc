@@ -110,6 +110,29 @@ TEST(VoxelMap, ForgettingAllIsTheEmptyMap) {
   EXPECT_EQ(dut.observed_count(), 0);
 }
 
+TEST(VoxelMap, ForgetsBlocksOutsideTheBoxAlone) {
+  Random random(3);
+  VoxelMap dut(0.1);
+  for (int i = 0; i < 5000; ++i)
+    dut.Set(RandomKey(random), static_cast<LogOdds>(i % 2 ? 100 : -100));
+  const VoxelMap before = dut;
+  const Aabb box{{-0.5, -1, 0.25}, {0.85, 0.3, 1e9}};
+  dut.ForgetBlocksOutside(box);
+  VoxelMap expected(0.1);
+  before.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    const Eigen::Vector3d low = 0.8 * Eigen::Vector3d(key.x, key.y, key.z);
+    const Aabb all{low, low + Eigen::Vector3d::Constant(0.8)};
+    const bool meets =
+        (all.max.array() > box.min.array()).all() && (all.min.array() <= box.max.array()).all();
+    if (meets) expected.PutBlock(key, block);
+  });
+  EXPECT_TRUE(dut == expected);
+  EXPECT_EQ(dut.observed_count(), expected.observed_count());
+  EXPECT_EQ(dut.occupied_count(), expected.occupied_count());
+  EXPECT_GT(expected.observed_count(), 10);
+  EXPECT_LT(expected.observed_count(), before.observed_count() / 2);
+}
+
 TEST(VoxelMap, BoxesAreTight) {
   VoxelMap dut(0.5);
   dut.Set({-1, 2, 3}, -10);

@@ -29,6 +29,8 @@ TEST(SceneParams, RefusesEachFieldByName) {
   ExpectRefused([](auto& p) { p.object_lifetime = std::chrono::hours(25); }, "object_lifetime_s");
   ExpectRefused([](auto& p) { p.rest_distance_m = -0.1; }, "rest_distance_m");
   ExpectRefused([](auto& p) { p.rest_distance_m = NAN; }, "rest_distance_m");
+  ExpectRefused([](auto& p) { p.keep_distance_m = 0.5; }, "keep_distance_m");
+  ExpectRefused([](auto& p) { p.keep_distance_m = NAN; }, "keep_distance_m");
   ExpectRefused([](auto& p) { p.bounds_W = Aabb{}; }, "bounds");
   ExpectRefused([](auto& p) { p.keep_out_W = {Aabb{{0, 0, 0}, {-1, 0, 0}}}; }, "keep_out[0]");
 }

@@ -195,6 +195,7 @@ TEST(SceneWire, ParamsComeBack) {
   params.object_lifetime = std::chrono::seconds(2);
   params.history = std::chrono::seconds(3);
   params.rest_distance_m = 0.2;
+  params.keep_distance_m = 40;
   params.bounds_W = {{-1, -2, -3}, {4, 5, 6}};
   params.keep_out_W = {{{0, 0, 0}, {1, 1, 1}}};
   params.self_filter_S = {{{0, 0, 0}, {2, 2, 2}}, {{3, 3, 3}, {4, 4, 4}}};

@@ -56,6 +56,10 @@ class BlockTree {
   template <class Visit>
   void ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const;
 
+  // The keys of the blocks that do not lie in [min, max], in ForEach's order. Takes time in
+  // proportion to their number and to the surface of the range.
+  std::vector<BlockKey> KeysOutside(BlockKey min, BlockKey max) const;
+
   // The blocks in [min, max] in which a voxel is occupied, as long as visit(BlockKey, const
   // VoxelBlock&) is false; returns whether it ever was true. Free space is skipped by regions.
   template <class Visit>
@@ -135,6 +139,9 @@ class BlockTree {
   bool AnyRootIn(BlockKey min, BlockKey max, Visit&& visit) const;
   template <bool kOccupied, class Node, class Visit>
   static bool AnyIn(const Node& node, BlockKey base, BlockKey min, BlockKey max, Visit& visit);
+  template <class Node>
+  static void AddKeysOutside(const Node& node, BlockKey base, BlockKey min, BlockKey max,
+                             std::vector<BlockKey>& keys);
   template <class Node, class Visit>
   static void VisitDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
 

@@ -40,6 +40,8 @@ class VoxelMap {
   void Set(VoxelKey key, LogOdds value);
   // Makes every voxel whose centre lies in the box unknown again.
   void Forget(const Aabb& box);
+  // Makes all voxels of the blocks that do not meet the box unknown again.
+  void ForgetBlocksOutside(const Aabb& box);
   // Replaces a whole block, counts kept right. `block` must be canonical for this map's model.
   void PutBlock(BlockKey key, const VoxelBlock& block);
 

@@ -36,6 +36,11 @@ struct SceneParams {
   // says: that is the noise of SLAM. 0: at rest is only what did not move at all (II-E as printed).
   double rest_distance_m = 0;
 
+  // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
+  // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of
+  // any length. 0: nothing is forgotten.
+  double keep_distance_m = 0;
+
   Aabb bounds_W{Eigen::Vector3d::Constant(-1e5), Eigen::Vector3d::Constant(1e5)};
   std::vector<Aabb> keep_out_W;     // these read as occupied by the static map
   std::vector<Aabb> self_filter_S;  // points in here are the robot's own body: left out

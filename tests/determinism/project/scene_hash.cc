@@ -10,6 +10,7 @@ int main() {
     params.rays = {.max_range_m = 6, .discretize = variant};
     params.clear_objects_by_rays = variant;
     params.rest_distance_m = variant ? 0.5 : 0;
+    params.keep_distance_m = variant ? 3 : 0;
     clearway::ThreadPool pool(2);
     clearway::SceneBuilder builder(params, {}, pool);
     clearway::testing_support::RandomFrames frames(variant);
