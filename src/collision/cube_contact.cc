@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/prepared_mesh.h"
+
 namespace clearway {
 
 CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
-    : shape_(shape), core_(shape.AsRoundedBox()) {
+    : shape_(shape), core_(shape.AsRoundedBox()), mesh_(shape.AsMesh()) {
   const double reach_m = margin_m + (core_ ? core_->radius_m : 0);
   is_box_ = core_ && reach_m == 0;
   near_m_ = std::max(reach_m - kRounding_m, 0.0);
@@ -53,8 +55,22 @@ CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
   return gap_m <= -kRounding_m ? Answer::kYes : Answer::kOpen;
 }
 
+// By the balls about the cube and in it.
+CubeContact::Answer CubeContact::OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const {
+  const DistanceGrid::Surroundings around = mesh_->Around(shape_.ToG(center_F));
+  const double to_corner_m = kToCorner * half_edge_m;
+  if (around.same_m > kRounding_m) {
+    if (around.inside) return Answer::kYes;
+    if (around.near_m > to_corner_m + far_m_ && around.same_m > to_corner_m + kRounding_m) {
+      return Answer::kNo;
+    }
+  }
+  return around.far_m + kRounding_m <= half_edge_m + near_m_ ? Answer::kYes : Answer::kOpen;
+}
+
 CubeContact::Answer CubeContact::OfAnyShape(const Eigen::Vector3d& center_F,
                                             double half_edge_m) const {
+  if (mesh_ != nullptr) return OfMesh(center_F, half_edge_m);
   const std::optional<Eigen::Vector3d> to_center_F = shape_.FromNearestPoint(center_F);
   return to_center_F ? Between(*to_center_F, half_edge_m) : Answer::kOpen;
 }

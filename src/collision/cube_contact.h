@@ -40,10 +40,12 @@ class CubeContact {
   }
   Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfAnyShape(const Eigen::Vector3d& center_F, double half_edge_m) const;
 
   const PlacedShape& shape_;
   std::optional<RoundedBox> core_;
+  const PreparedMesh* mesh_;
   bool is_box_;  // not rounded, and without a margin
   // A cube certainly touches if it is as near as near_m_ to the core, and does not beyond far_m_.
   double near_m_, far_m_;

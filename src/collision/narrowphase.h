@@ -12,17 +12,25 @@
 
 namespace clearway {
 
+class PreparedMesh;
+
+// How much work is worth while on a shape before it is asked about.
+enum class Reuse { kFewQueries, kManyQueries };
+
 // A shape prepared for distance queries, in its own frame G. Immutable and cheap to copy; threads
 // share it.
 class ShapeGeometry {
  public:
   // Meshes must not be empty.
-  explicit ShapeGeometry(const Shape& shape);
+  explicit ShapeGeometry(const Shape& shape, Reuse reuse = Reuse::kFewQueries);
 
   const Shape& shape() const { return shape_; }
   const Aabb& box_G() const { return box_G_; }
   // For hulls and meshes, points whose convex hull is the shape's; empty for the others.
   const std::vector<Eigen::Vector3d>& corners_G() const { return *corners_G_; }
+
+  // Of every mesh, and of hulls that are worth it; null for the others.
+  const PreparedMesh* prepared() const { return prepared_.get(); }
 
   struct Fcl;  // FCL's form of the shape
   const Fcl& fcl() const { return *fcl_; }
@@ -31,6 +39,7 @@ class ShapeGeometry {
   Shape shape_;
   Aabb box_G_;
   std::shared_ptr<const std::vector<Eigen::Vector3d>> corners_G_;
+  std::shared_ptr<const PreparedMesh> prepared_;
   std::shared_ptr<const Fcl> fcl_;
 };
 
@@ -59,6 +68,11 @@ class PlacedShape {
   bool Contains(const Eigen::Vector3d& p_F) const;
   // The same set of points, if the shape is a sphere, box or capsule.
   std::optional<RoundedBox> AsRoundedBox() const;
+  // The shape as a mesh, if it is prepared for that, and p as its frame sees it.
+  const PreparedMesh* AsMesh() const { return geometry_->prepared(); }
+  Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
+    return R_F_G_.transpose() * (p_F - T_F_G_.translation);
+  }
   // The vector to p from the shape's nearest point, 0 inside; of cylinders alone.
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
@@ -69,9 +83,6 @@ class PlacedShape {
 
  private:
   const Eigen::Vector3d& origin_F() const { return T_F_G_.translation; }
-  Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
-    return R_F_G_.transpose() * (p_F - T_F_G_.translation);
-  }
   Aabb TightBox() const;
   double LowerBound(const Aabb& box_F) const;
 

@@ -14,8 +14,8 @@ RobotGeometry PrepareRobot(const Robot& robot) {
     LinkGeometry& prepared = geometry.emplace_back();
     for (const LinkShape& shape : link.shapes) {
       const bool at_origin = shape.T_L_G == Pose{};
-      prepared.parts.push_back(
-          {ShapeGeometry(shape.shape), at_origin ? std::nullopt : std::optional(shape.T_L_G)});
+      prepared.parts.push_back({ShapeGeometry(shape.shape, Reuse::kManyQueries),
+                                at_origin ? std::nullopt : std::optional(shape.T_L_G)});
     }
   }
   return geometry;

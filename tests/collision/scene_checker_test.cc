@@ -8,6 +8,7 @@
 #include "collision/brute_force.h"
 #include "collision/random_world.h"
 #include "collision/tally.h"
+#include "collision/test_meshes.h"
 #include "collision/test_world.h"
 
 namespace clearway {
@@ -60,6 +61,19 @@ TEST(SceneCheckerTest, AgreesWithBruteForceForManyLinks) {
     const ScenePtr scene = random.Scene();
     CheckAgainstBruteForce(random, scene, random.AnyRobot(), 30, tally,
                            "seed " + std::to_string(seed));
+  }
+  ExpectEveryAnswerOccurred(tally);
+}
+
+TEST(SceneCheckerTest, AgreesWithBruteForceForMeshesOfAllKinds) {
+  Tally tally;
+  std::uint32_t seed = 2000;
+  for (const TestMesh& test : TestMeshes()) {
+    if (test.size_m > 1) continue;  // never within the bounds
+    RandomWorld random(++seed);
+    const ScenePtr scene = random.Scene();
+    const Robot robot = Robot::SingleShape(test.name, TriangleMesh{test.regular});
+    CheckAgainstBruteForce(random, scene, robot, 40, tally, test.name);
   }
   ExpectEveryAnswerOccurred(tally);
 }
