@@ -8,26 +8,13 @@
 
 namespace clearway {
 
-RobotGeometry PrepareRobot(const Robot& robot) {
-  RobotGeometry geometry;
-  for (const Link& link : robot.links) {
-    LinkGeometry& prepared = geometry.emplace_back();
-    for (const LinkShape& shape : link.shapes) {
-      const bool at_origin = shape.T_L_G == Pose{};
-      prepared.parts.push_back({ShapeGeometry(shape.shape, Reuse::kManyQueries),
-                                at_origin ? std::nullopt : std::optional(shape.T_L_G)});
-    }
-  }
-  return geometry;
-}
-
 void StateCheck::Place(const Pose* T_W_L) {
   shapes_W_.clear();
   first_shapes_.clear();
-  for (std::size_t link = 0; link < robot_.size(); ++link) {
+  for (std::size_t link = 0; link < robot_.links().size(); ++link) {
     first_shapes_.push_back(shapes_W_.size());
     const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
-    for (const LinkGeometry::Part& part : robot_[link].parts) {
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
       shapes_W_.emplace_back(part.geometry, part.T_L_G ? T_W_link * *part.T_L_G : T_W_link);
     }
   }

@@ -10,20 +10,10 @@
 #include "clearway/collision/state_checker.h"
 #include "collision/narrowphase.h"
 #include "collision/placed_object.h"
+#include "collision/robot_geometry.h"
 #include "collision/voxel_search.h"
 
 namespace clearway {
-
-// A robot's shapes prepared for placing.
-struct LinkGeometry {
-  struct Part {
-    ShapeGeometry geometry;
-    std::optional<Pose> T_L_G;  // none: G is L
-  };
-  std::vector<Part> parts;
-};
-using RobotGeometry = std::vector<LinkGeometry>;  // by link
-RobotGeometry PrepareRobot(const Robot& robot);
 
 // What all states have in common. Refers to all of it.
 struct CheckContext {
@@ -52,7 +42,7 @@ class StateCheck {
   void Place(const Pose* T_W_L);
   Aabb SearchedBox() const;  // what lies beyond does not matter to the answer
   std::span<const PlacedShape> ShapesOf(int link) const;
-  int links() const { return static_cast<int>(robot_.size()); }
+  int links() const { return static_cast<int>(robot_.links().size()); }
 
   std::optional<Touch> OutOfBounds() const;
   std::optional<Touch> Occupied() const;

@@ -78,6 +78,24 @@ TEST(SceneCheckerTest, AgreesWithBruteForceForMeshesOfAllKinds) {
   ExpectEveryAnswerOccurred(tally);
 }
 
+TEST(SceneCheckerTest, OnePreparedRobotServesTheCheckersOfManyScenes) {
+  RandomWorld random(3);
+  const Robot robot = random.AnyRobot();
+  const auto prepared = std::make_shared<const PreparedRobot>(robot);
+  for (int i = 0; i < 5; ++i) {
+    const ScenePtr scene = random.Scene();
+    const StateBatch states = random.States(robot, 30);
+    const CheckOptions options = random.Options(robot);
+    const auto dut = SceneChecker(scene, prepared).Check(states, options);
+    const auto expected = SceneChecker(scene, robot).Check(states, options);
+    ASSERT_TRUE(dut.ok() && expected.ok());
+    for (std::size_t s = 0; s < states.times.size(); ++s) {
+      EXPECT_EQ(dut->answers[s].status, expected->answers[s].status);
+      EXPECT_EQ(dut->answers[s].clearance_m, expected->answers[s].clearance_m);
+    }
+  }
+}
+
 // A state of 80 million voxels would take many seconds.
 TEST(SceneCheckerTest, EndsSoonOnceItIsCancelled) {
   const SceneChecker dut(TestWorld().Scene(), Robot::SingleShape("huge", Sphere{27}));
