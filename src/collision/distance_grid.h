@@ -37,12 +37,12 @@ class DistanceGrid {
     const double stored_m = signed_m_[cell];
     const double distance_m = std::abs(stored_m);
     const double off_m = (in_box_G - CenterOf(x, y, z)).norm();
-    const double beyond_m = (p_G - in_box_G).norm();
+    const double squared_beyond = (p_G - in_box_G).squaredNorm();
     const double same_m = same_m_.empty() ? distance_m : same_m_[cell];
-    Surroundings around{distance_m * (1 - kRounding) - off_m,
-                        distance_m * (1 + kRounding) + off_m + beyond_m,
-                        same_m * (1 - kRounding) - off_m, stored_m < 0};
-    return beyond_m == 0 ? around : Beyond(beyond_m, around);
+    const Surroundings around{distance_m * (1 - kRounding) - off_m,
+                              distance_m * (1 + kRounding) + off_m,
+                              same_m * (1 - kRounding) - off_m, stored_m < 0};
+    return squared_beyond == 0 ? around : Beyond(squared_beyond, around);
   }
 
  private:
@@ -56,11 +56,13 @@ class DistanceGrid {
   }
   // Of a point beyond the grid's box, from what is known of the box's nearest point: there the
   // lines to it and to any point of the surface meet at a right angle or more.
-  Surroundings Beyond(double beyond_m, const Surroundings& at_box) const {
-    const double near_m = std::hypot(beyond_m, std::max(0.0, at_box.near_m));
-    if (same_m_.empty()) return {near_m, at_box.far_m, near_m, false};
+  Surroundings Beyond(double squared_beyond, const Surroundings& at_box) const {
+    const double beyond_m = std::sqrt(squared_beyond), least_m = std::max(0.0, at_box.near_m);
+    const double near_m = std::sqrt(squared_beyond + least_m * least_m) * (1 - 1e-15);
+    const double far_m = at_box.far_m + beyond_m;
+    if (same_m_.empty()) return {near_m, far_m, near_m, false};
     const double around_box_m = at_box.inside ? 0 : at_box.same_m - beyond_m;
-    return {near_m, at_box.far_m, std::max(beyond_m, around_box_m), false};
+    return {near_m, far_m, std::max(beyond_m, around_box_m), false};
   }
 
   void Lay(const Aabb& mesh_box_G);

@@ -14,14 +14,6 @@
 namespace clearway {
 namespace {
 
-std::vector<Eigen::Vector3d> CornersOf(const Shape& shape) {
-  if (const auto* hull = std::get_if<ConvexPolytope>(&shape)) return hull->mesh->vertices;
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  if (mesh == nullptr) return {};
-  std::vector<Eigen::Vector3d> corners = ConvexHullOf(mesh->mesh->vertices).vertices;
-  return corners.empty() ? mesh->mesh->vertices : corners;  // a flat mesh has no hull
-}
-
 std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
     return std::make_shared<const PreparedMesh>(mesh->mesh);
@@ -33,6 +25,8 @@ std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse) {
   return std::make_shared<const PreparedMesh>(std::make_shared<const Mesh>(std::move(hull)));
 }
 
+Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
+
 }  // namespace
 
 struct ShapeGeometry::Fcl {
@@ -42,7 +36,6 @@ struct ShapeGeometry::Fcl {
 ShapeGeometry::ShapeGeometry(const Shape& shape, Reuse reuse)
     : shape_(shape),
       box_G_(BoundingBox(shape)),
-      corners_G_(std::make_shared<const std::vector<Eigen::Vector3d>>(CornersOf(shape))),
       prepared_(Prepare(shape, reuse)),
       fcl_(std::make_shared<const Fcl>(Fcl{ToFcl(shape)})) {}
 
@@ -66,8 +59,10 @@ Aabb PlacedShape::TightBox() const {
     half = axis * cylinder->length_m / 2 +
            (1 - axis.array().square()).max(0).sqrt().matrix() * cylinder->radius_m;
   } else {
+    const PreparedMesh* mesh = geometry_->prepared();
+    if (mesh != nullptr) return Moved(mesh->BoxTurned(R_F_G_), origin_F());
     Aabb around;
-    for (const Eigen::Vector3d& corner_G : geometry_->corners_G()) {
+    for (const Eigen::Vector3d& corner_G : std::get<ConvexPolytope>(shape).mesh->vertices) {
       around.Extend(R_F_G_ * corner_G + origin_F());
     }
     return around;
@@ -151,7 +146,8 @@ double PlacedShape::DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H,
                        Placement(R_F_G_, origin_F() - T_F_H.translation), hull.fcl().geometry.get(),
                        Placement(R_F_H, Eigen::Vector3d::Zero())};
     if (!std::holds_alternative<TriangleMesh>(shape)) return Distance(pair);
-    const Eigen::Vector3d corner_F = T_F_H * hull.corners_G().front();
+    const Mesh& hull_mesh = *std::get<ConvexPolytope>(hull.shape()).mesh;
+    const Eigen::Vector3d corner_F = T_F_H * hull_mesh.vertices.front();
     return Collide(pair) || Contains(corner_F) ? 0.0 : Distance(pair);
   });
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/pose.h"
@@ -26,8 +25,6 @@ class ShapeGeometry {
 
   const Shape& shape() const { return shape_; }
   const Aabb& box_G() const { return box_G_; }
-  // For hulls and meshes, points whose convex hull is the shape's; empty for the others.
-  const std::vector<Eigen::Vector3d>& corners_G() const { return *corners_G_; }
 
   // Of every mesh, and of hulls that are worth it; null for the others.
   const PreparedMesh* prepared() const { return prepared_.get(); }
@@ -38,7 +35,6 @@ class ShapeGeometry {
  private:
   Shape shape_;
   Aabb box_G_;
-  std::shared_ptr<const std::vector<Eigen::Vector3d>> corners_G_;
   std::shared_ptr<const PreparedMesh> prepared_;
   std::shared_ptr<const Fcl> fcl_;
 };
@@ -77,7 +73,7 @@ class PlacedShape {
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
-  // A convex hull at T_F_H.
+  // `hull` is that of a ConvexPolytope, at T_F_H.
   double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
   double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
 

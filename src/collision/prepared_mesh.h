@@ -6,6 +6,7 @@
 
 #include "clearway/geometry/shape.h"
 #include "collision/distance_grid.h"
+#include "collision/extreme_points.h"
 #include "collision/oriented_box.h"
 #include "collision/triangle_tree.h"
 #include "collision/winding_tree.h"
@@ -30,11 +31,15 @@ class PreparedMesh {
   // The box counts as inside if its centre is.
   double DistanceTo(const OrientedBox& box, double up_to_m) const;
 
+  // The smallest box around the mesh, turned into a frame F. Its origin is G's.
+  Aabb BoxTurned(const Eigen::Matrix3d& R_F_G) const { return extreme_.BoxTurned(R_F_G); }
+
   // What is known of a point at once.
   DistanceGrid::Surroundings Around(const Eigen::Vector3d& p_G) const { return grid_.At(p_G); }
 
  private:
   Aabb box_G_;
+  ExtremePoints extreme_;
   TriangleTree tree_;
   WindingTree winding_;
   DistanceGrid grid_;

@@ -80,6 +80,18 @@ TEST_P(PreparedMeshTest, DistancesOfPointsAreThoseOfTheNearestTriangle) {
   }
 }
 
+TEST_P(PreparedMeshTest, BoxesAroundItHoldItsCornersAndNoMore) {
+  Random random(6);
+  for (int i = 0; i < 300; ++i) {
+    Eigen::Matrix3d R_F_G = random.AnyPose(1).rotation.toRotationMatrix();
+    if (i == 0) R_F_G.setIdentity();
+    Aabb expected;
+    for (const Eigen::Vector3d& corner : GetParam().mesh->vertices) expected.Extend(R_F_G * corner);
+    const Aabb found = dut_.BoxTurned(R_F_G);
+    EXPECT_LT((found.min - expected.min).norm() + (found.max - expected.max).norm(), 1e-12);
+  }
+}
+
 TEST_P(PreparedMeshTest, WhatIsCertainRoundAPointIsTrue) {
   Random random(3);
   const Shape shape = TriangleMesh{GetParam().mesh};
