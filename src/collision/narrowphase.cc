@@ -83,18 +83,21 @@ std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector
   return R_F_G_ * (p_G - NearestPoint(p_G, *cylinder));
 }
 
-std::optional<RoundedBox> PlacedShape::AsRoundedBox() const {
+std::optional<RoundedLine> PlacedShape::AsRoundedLine() const {
   const Shape& shape = geometry_->shape();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), Eigen::Vector3d::Zero(), sphere->radius_m};
-  }
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), 0.5 * box->size_m, 0};
+    return RoundedLine{origin_F(), R_F_G_.col(2), 0, sphere->radius_m};
   }
   if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), {0, 0, 0.5 * capsule->length_m}, capsule->radius_m};
+    return RoundedLine{origin_F(), R_F_G_.col(2), 0.5 * capsule->length_m, capsule->radius_m};
   }
   return std::nullopt;
+}
+
+std::optional<TurnedBox> PlacedShape::AsBox() const {
+  const auto* box = std::get_if<Box>(&geometry_->shape());
+  if (box == nullptr) return std::nullopt;
+  return TurnedBox{R_F_G_, origin_F(), 0.5 * box->size_m};
 }
 
 // The gap along F's axes, or that along G's.

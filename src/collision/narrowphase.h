@@ -39,12 +39,19 @@ class ShapeGeometry {
   std::shared_ptr<const Fcl> fcl_;
 };
 
-// A box at a pose in F, grown by a radius: a sphere is a rounded point, a capsule a rounded line.
-struct RoundedBox {
+// A sphere or a capsule at a pose in F: a point or a line, grown by a radius.
+struct RoundedLine {
+  Eigen::Vector3d center_F;
+  Eigen::Vector3d axis_F;  // of length 1
+  double half_m;           // of the line's length
+  double radius_m;
+};
+
+// A box at a pose in F.
+struct TurnedBox {
   Eigen::Matrix3d R_F_G;
   Eigen::Vector3d origin_F;
   Eigen::Vector3d half_m;  // of its edges, along G's axes
-  double radius_m;
 };
 
 // A shape at a pose in a frame F. Immutable; refers to the geometry it was made of.
@@ -62,8 +69,9 @@ class PlacedShape {
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
-  // The same set of points, if the shape is a sphere, box or capsule.
-  std::optional<RoundedBox> AsRoundedBox() const;
+  // The same set of points, if the shape is of that kind.
+  std::optional<RoundedLine> AsRoundedLine() const;
+  std::optional<TurnedBox> AsBox() const;
   // The shape as a mesh, if it is prepared for that, and p as its frame sees it.
   const PreparedMesh* AsMesh() const { return geometry_->prepared(); }
   Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {

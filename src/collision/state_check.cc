@@ -7,15 +7,21 @@
 #include "collision/voxel_distance.h"
 
 namespace clearway {
+namespace {
+
+Pose Normalized(const Pose& pose) { return {pose.rotation.normalized(), pose.translation}; }
+
+}  // namespace
 
 void StateCheck::Place(const Pose* T_W_L) {
   shapes_W_.clear();
   first_shapes_.clear();
   for (std::size_t link = 0; link < robot_.links().size(); ++link) {
     first_shapes_.push_back(shapes_W_.size());
-    const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
+    const Pose& T_W_link = T_W_L[link];
     for (const RobotGeometry::Part& part : robot_.links()[link]) {
-      shapes_W_.emplace_back(part.geometry, part.T_L_G ? T_W_link * *part.T_L_G : T_W_link);
+      shapes_W_.emplace_back(part.geometry,
+                             part.T_L_G ? Normalized(T_W_link) * *part.T_L_G : T_W_link);
     }
   }
   first_shapes_.push_back(shapes_W_.size());
