@@ -80,7 +80,7 @@ void DistanceGrid::Lay(const Aabb& mesh_box_G) {
   const Eigen::Vector3d mesh_size_m = mesh_box_G.Size();
   constexpr double kSmallest_m = 1e-6;
   cell_m_ = std::max(mesh_size_m.maxCoeff() / (kMostAlong - 2), kSmallest_m);
-  const auto along = [&] { return (mesh_size_m / cell_m_).array().ceil() + 1; };
+  const auto along = [&]() -> Eigen::Array3d { return (mesh_size_m / cell_m_).array().ceil() + 1; };
   while (along().prod() > kMostCells) cell_m_ *= 1.02;
   per_cell_ = 1 / cell_m_;
   size_ = along().cast<int>();

@@ -13,6 +13,13 @@ Pose Normalized(const Pose& pose) { return {pose.rotation.normalized(), pose.tra
 
 }  // namespace
 
+StateCheck::StateCheck(const CheckContext& context, const RobotGeometry& robot)
+    : context_(context), robot_(robot), bounds_W_(context.scene.params.bounds_W) {
+  const double limit_m = context.scene.static_map_W.grid().limit_m();
+  bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
+  bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
+}
+
 void StateCheck::Place(const Pose* T_W_L) {
   shapes_W_.clear();
   first_shapes_.clear();
@@ -71,14 +78,11 @@ StateAnswer StateCheck::Answer(Time time, const Pose* T_W_L) {
 }
 
 std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
-  const Aabb& bounds = context_.scene.params.bounds_W;
-  const VoxelGrid& grid = context_.scene.static_map_W.grid();
   for (int link = 0; link < links(); ++link) {
     for (const PlacedShape& shape : ShapesOf(link)) {
-      for (const Eigen::Vector3d& corner : {shape.box_F().min, shape.box_F().max}) {
-        if (bounds.Contains(corner) && grid.Addressable(corner)) continue;
-        return Touch{link, kStaticLabel};
-      }
+      const Aabb& box_W = shape.box_F();
+      if (bounds_W_.Contains(box_W.min) && bounds_W_.Contains(box_W.max)) continue;
+      return Touch{link, kStaticLabel};
     }
   }
   return std::nullopt;

@@ -27,8 +27,7 @@ struct CheckContext {
 // Checks one state after the other. Lives on one thread's stack.
 class StateCheck {
  public:
-  StateCheck(const CheckContext& context, const RobotGeometry& robot)
-      : context_(context), robot_(robot) {}
+  StateCheck(const CheckContext& context, const RobotGeometry& robot);
 
   // The whole rule, in the order of precedence of SpaceStatus. T_W_L: one pose per link.
   StateAnswer Answer(Time time, const Pose* T_W_L);
@@ -58,6 +57,7 @@ class StateCheck {
 
   const CheckContext& context_;
   const RobotGeometry& robot_;
+  Aabb bounds_W_;                          // within which voxels can be told
   std::vector<PlacedShape> shapes_W_;      // link by link
   std::vector<std::size_t> first_shapes_;  // of each link, and the end
   const std::vector<PlacedObject>* objects_ = nullptr;

@@ -53,10 +53,13 @@ bool Meet(const Triangle& triangle_G, const OrientedBox& box) {
 
 // Of two convex bodies that are apart, a nearest pair has the triangle's edge, or else its inside
 // and the box's corner that is the lowest above the triangle's plane.
-double Distance(const Triangle& triangle_G, const OrientedBox& box) {
+double Distance(const Triangle& triangle_G, const OrientedBox& box, double up_to_m) {
   const Triangle t = SeenFrom(box, triangle_G);
-  if (MeetAtOrigin(t, box.half_m.array() + kTouching_m)) return 0;
+  const Aabb around_t{t.a.cwiseMin(t.b).cwiseMin(t.c), t.a.cwiseMax(t.b).cwiseMax(t.c)};
   const Aabb around{-box.half_m, box.half_m};
+  const double at_least_m = BoxBoxDistance(around_t, around);
+  if (at_least_m > up_to_m) return at_least_m;
+  if (MeetAtOrigin(t, box.half_m.array() + kTouching_m)) return 0;
   const double to_edges_m =
       std::min({SegmentBoxDistance(t.a, t.b, around), SegmentBoxDistance(t.b, t.c, around),
                 SegmentBoxDistance(t.c, t.a, around)});

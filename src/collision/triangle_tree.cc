@@ -102,7 +102,7 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
     if (next.bound_m > limit_m) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double distance_m = measure(triangles_[i]);
+      const double distance_m = measure(triangles_[i], limit_m);
       if (distance_m > limit_m) continue;
       limit_m = distance_m;
       nearest = {distance_m, i};
@@ -124,13 +124,13 @@ TriangleTree::Nearest TriangleTree::NearestTo(const Eigen::Vector3d& p_G, double
       [&](const Node& node) {
         return ((p_G - node.center_G).cwiseAbs() - node.half_m).cwiseMax(0.0).norm();
       },
-      [&](const Triangle& t) { return PointTriangleDistance(p_G, t.a, t.b, t.c); });
+      [&](const Triangle& t, double) { return PointTriangleDistance(p_G, t.a, t.b, t.c); });
 }
 
 TriangleTree::Nearest TriangleTree::NearestTo(const OrientedBox& box, double up_to_m) const {
   return Least(
       up_to_m, [&](const Node& node) { return GapBetween(node, box); },
-      [&](const Triangle& t) { return Distance(t, box); });
+      [&](const Triangle& t, double limit_m) { return Distance(t, box, limit_m); });
 }
 
 bool TriangleTree::Meets(const OrientedBox& box) const {

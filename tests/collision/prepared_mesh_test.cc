@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "collision/brute_geometry.h"
 #include "collision/closed_form.h"
@@ -48,7 +50,13 @@ class PreparedMeshTest : public testing::TestWithParam<TestMesh> {
     return Distance(body, GeometryOf(Box{2 * half_m}), pose);
   }
 
-  const PreparedMesh dut_{GetParam().mesh};
+  // Made once for all tests of a mesh, as that is slow with sanitizers.
+  static const PreparedMesh& Prepared(const TestMesh& test) {
+    static std::map<std::string, PreparedMesh> prepared;
+    return prepared.try_emplace(test.name, test.mesh).first->second;
+  }
+
+  const PreparedMesh& dut_ = Prepared(GetParam());
   const FclGeometry oracle_ = GeometryOf(TriangleMesh{GetParam().regular});
 };
 

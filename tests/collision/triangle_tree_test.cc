@@ -81,7 +81,8 @@ TEST(TriangleBoxTest, DistancesAreThoseOfASearchOverTheTriangle) {
     double expected_m = to_edge(1);
     constexpr int kSteps = 4000;
     for (int k = 0; k < kSteps; ++k) expected_m = std::min(expected_m, to_edge(1.0 * k / kSteps));
-    const double found_m = Distance(t, box);
+    const double found_m = Distance(t, box, 100);
+    EXPECT_GT(Distance(t, box, 0.9 * found_m), found_m > 0 ? 0.9 * found_m : -1);
     EXPECT_LE(found_m, expected_m + 1e-9);
     EXPECT_GE(found_m, expected_m - (t.b - t.a).norm() / kSteps - 1e-9);
     EXPECT_EQ(Meet(t, box), found_m == 0);
