@@ -15,8 +15,7 @@ namespace clearway {
 
 // The solid of a mesh in the sense of Contains(TriangleMesh), in the mesh's frame G. A grid of
 // distances answers most questions; the others go to the triangles. Motion leaves it as it is.
-// Takes 5 to 100 ms and a megabyte to make for 1,000 triangles. Immutable; any number of threads
-// may read it.
+// What it takes to make stands at PreparedRobot. Immutable; any number of threads may read it.
 //
 // Distances are in metres and 0 where the two meet, exact to 1e-9 m if at most up_to_m, and above
 // up_to_m beyond that.
