@@ -99,7 +99,8 @@ void Checks(benchmark::State& state, DriveServer& served, Duration turn) {
   const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
   const ScenePtr copy = (*mirror)->Latest();
   if (!SameContent(*copy, *served.Newest())) state.SkipWithError("the mirror differs");
-  const Robot robot = Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}});
+  const auto robot =
+      std::make_shared<const PreparedRobot>(Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
   RandomQuestions questions(served.GroundSpace(), 1);
   std::vector<StateBatch> batches;
   for (int i = 0; i < 8; ++i) batches.push_back(questions.States(1'000, {Pose{}}));

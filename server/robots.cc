@@ -38,8 +38,10 @@ absl::StatusOr<std::string> Robots::Register(Robot robot) {
                      " voxels; the limit is ", max_voxels_));
   }
   const std::string id = RobotId(robot);
+  if (Find(id).ok()) return id;
+  // Prepared without the lock, as it may take long; two calls may both do it, which is harmless.
   std::list<KnownRobot> entry;
-  entry.push_back({id, std::make_shared<const Robot>(std::move(robot))});
+  entry.push_back({id, std::make_shared<const PreparedRobot>(std::move(robot))});
   std::lock_guard lock(mutex_);
   robots_.remove_if([&](const KnownRobot& known) { return known.id == id; });
   robots_.splice(robots_.begin(), entry);
@@ -47,7 +49,7 @@ absl::StatusOr<std::string> Robots::Register(Robot robot) {
   return id;
 }
 
-absl::StatusOr<std::shared_ptr<const Robot>> Robots::Find(const std::string& id) {
+absl::StatusOr<std::shared_ptr<const PreparedRobot>> Robots::Find(const std::string& id) {
   std::lock_guard lock(mutex_);
   const auto found = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const KnownRobot& known) { return known.id == id; });
@@ -73,12 +75,12 @@ std::shared_ptr<const SceneChecker> Robots::FindChecker(const std::string& id,
 
 absl::StatusOr<std::shared_ptr<const SceneChecker>> Robots::CheckerFor(const std::string& id,
                                                                        const ScenePtr& scene) {
-  absl::StatusOr<std::shared_ptr<const Robot>> robot = Find(id);
+  absl::StatusOr<std::shared_ptr<const PreparedRobot>> robot = Find(id);
   if (!robot.ok()) return robot.status();
   if (auto checker = FindChecker(id, scene)) return checker;
   // Made without the lock, as it may take long; two calls may both make one, which is harmless.
   std::list<KnownChecker> entry;
-  entry.push_back({id, scene, std::make_shared<const SceneChecker>(scene, **robot)});
+  entry.push_back({id, scene, std::make_shared<const SceneChecker>(scene, *robot)});
   auto checker = entry.front().checker;
   std::list<KnownChecker> dropped;  // freed after the lock
   std::lock_guard lock(mutex_);

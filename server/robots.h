@@ -23,7 +23,7 @@ class Robots {
   // max_voxels_per_robot: what one state costs grows with them.
   absl::StatusOr<std::string> Register(Robot robot);
   // NOT_FOUND for a robot that is not, or no longer, known.
-  absl::StatusOr<std::shared_ptr<const Robot>> Find(const std::string& id);
+  absl::StatusOr<std::shared_ptr<const PreparedRobot>> Find(const std::string& id);
   // The robot's checker on the scene.
   absl::StatusOr<std::shared_ptr<const SceneChecker>> CheckerFor(const std::string& id,
                                                                  const ScenePtr& scene);
@@ -32,7 +32,7 @@ class Robots {
  private:
   struct KnownRobot {
     std::string id;
-    std::shared_ptr<const Robot> robot;
+    std::shared_ptr<const PreparedRobot> robot;
   };
   struct KnownChecker {
     std::string id;

@@ -25,15 +25,17 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
                                         v1::CheckStatesResponse* response) {
   return Handle(core_, "CheckStates", *request, [&]() -> absl::Status {
     const Gone gone = GoneOf(context);
-    absl::StatusOr<std::shared_ptr<const Robot>> robot = core_.robots.Find(request->robot_id());
+    absl::StatusOr<std::shared_ptr<const PreparedRobot>> robot =
+        core_.robots.Find(request->robot_id());
     if (!robot.ok()) return robot.status();
     const ServerLimits& limits = core_.config.limits;
     absl::StatusOr<CheckOptions> options = ReadCheckOptions("options", request->options(), limits);
     if (!options.ok()) return options.status();
-    if (absl::Status status = Validate(*options, **robot); !status.ok()) {
+    if (absl::Status status = Validate(*options, (*robot)->robot()); !status.ok()) {
       return WithFieldPrefix("options.", status);
     }
-    absl::StatusOr<StateBatch> states = ReadStates(*request, (*robot)->links.size(), limits);
+    absl::StatusOr<StateBatch> states =
+        ReadStates(*request, (*robot)->robot().links.size(), limits);
     if (!states.ok()) return states.status();
     absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), gone);
     if (!scene.ok()) return scene.status();

@@ -20,6 +20,24 @@ Eigen::Vector3d Outside(const Eigen::Vector3d& p, const Aabb& box) {
   return (p - box.max).cwiseMax(0.0) + (p - box.min).cwiseMin(0.0);
 }
 
+// Where the products of Ericson's form lose more digits than the squared sine of an angle has.
+constexpr double kSliver = 1e-8;
+
+// Of a triangle so thin that its plane counts only if it is known, and then by cross products.
+double PointSliverDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double to_rim_m = std::min({PointSegmentDistance(p, a, b), PointSegmentDistance(p, b, c),
+                                    PointSegmentDistance(p, c, a)});
+  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a;
+  const Eigen::Vector3d normal = ab.cross(ac);
+  if (normal.squaredNorm() <= kSliver * kSliver * ab.squaredNorm() * ac.squaredNorm()) {
+    return to_rim_m;
+  }
+  const bool above = normal.dot(ab.cross(ap)) >= 0 && normal.dot((c - b).cross(p - b)) >= 0 &&
+                     normal.dot(ap.cross(ac)) >= 0;
+  return above ? std::min(to_rim_m, std::abs(normal.dot(ap)) / normal.norm()) : to_rim_m;
+}
+
 double PointMeshDistance(const Eigen::Vector3d& p, const Mesh& mesh) {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -65,6 +83,14 @@ double SegmentBoxDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, co
   return PointBoxDistance(a + s * along, box);
 }
 
+double PointSegmentDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b) {
+  const Eigen::Vector3d ab = b - a, ap = p - a;
+  const double along = ab.dot(ap), all = ab.squaredNorm();
+  if (along <= 0) return ap.norm();
+  return along >= all ? (p - b).norm() : (ap - along / all * ab).norm();
+}
+
 double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -75,14 +101,18 @@ double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
   const double d5 = ab.dot(cp), d6 = ac.dot(cp);
   if (d6 >= 0 && d5 <= d6) return cp.norm();
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return (ap - d1 / (d1 - d3) * ab).norm();
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return (ap - d1 / (d1 - d3) * ab).norm();
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return (ap - d2 / (d2 - d6) * ac).norm();
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
     return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
   }
-  return (ap - (vb * ab + vc * ac) / (va + vb + vc)).norm();
+  const Eigen::Vector3d normal = ab.cross(ac);
+  if (normal.squaredNorm() <= kSliver * ab.squaredNorm() * ac.squaredNorm()) {
+    return PointSliverDistance(p, a, b, c);
+  }
+  return std::abs(normal.dot(ap)) / normal.norm();
 }
 
 Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Cylinder& cylinder) {

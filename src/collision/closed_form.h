@@ -14,7 +14,10 @@ double PointBoxDistance(const Eigen::Vector3d& p, const Aabb& box);
 // Of the segment from a to b.
 double SegmentBoxDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Aabb& box);
 
-// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.
+// Ericson, "Real-Time Collision Detection", 2005, sections 5.1.2 and 5.1.5. Corners may coincide or
+// lie on a line.
+double PointSegmentDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                            const Eigen::Vector3d& b);
 double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                              const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 

@@ -4,19 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/prepared_mesh.h"
+
 namespace clearway {
 
 CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
-    : shape_(shape), core_(shape.AsRoundedBox()) {
-  const double reach_m = margin_m + (core_ ? core_->radius_m : 0);
-  is_box_ = core_ && reach_m == 0;
+    : shape_(shape), line_(shape.AsRoundedLine()), box_(shape.AsBox()), mesh_(shape.AsMesh()) {
+  const double reach_m = margin_m + (line_ ? line_->radius_m : 0);
+  sharp_ = reach_m == 0;
   near_m_ = std::max(reach_m - kRounding_m, 0.0);
   far_m_ = reach_m + kRounding_m;
 }
 
-// The core is convex: it lies beyond the plane through its point q nearest to the cube's centre,
-// across the line between the two. So the cube is at least as far as from that plane, and at most
-// as far as from q.
+// The line or the shape is convex: it lies beyond the plane through its point q nearest to the
+// cube's centre, across the way between the two. So the cube is at least as far as from that plane,
+// and at most as far as from q.
 CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
                                          double half_edge_m) const {
   const Eigen::Array3d gap = to_center_F.array().abs();
@@ -32,8 +34,8 @@ CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
 CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
                                          double half_edge_m) const {
   constexpr double kParallel = 1e-6;  // such a cross product says nothing that the axes do not
-  const Eigen::Matrix3d& R = core_->R_F_G;
-  const Eigen::Vector3d &half = core_->half_m, apart = center_F - core_->origin_F;
+  const Eigen::Matrix3d& R = box_->R_F_G;
+  const Eigen::Vector3d &half = box_->half_m, apart = center_F - box_->origin_F;
   double gap_m = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     const double cube_m = half_edge_m * R.col(k).cwiseAbs().sum();
@@ -53,8 +55,22 @@ CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
   return gap_m <= -kRounding_m ? Answer::kYes : Answer::kOpen;
 }
 
+// By the balls about the cube and in it.
+CubeContact::Answer CubeContact::OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const {
+  const DistanceGrid::Surroundings around = mesh_->Around(shape_.ToG(center_F));
+  const double to_corner_m = kToCorner * half_edge_m;
+  if (around.same_m > kRounding_m) {
+    if (around.inside) return Answer::kYes;
+    if (around.near_m > to_corner_m + far_m_ && around.same_m > to_corner_m + kRounding_m) {
+      return Answer::kNo;
+    }
+  }
+  return around.far_m + kRounding_m <= half_edge_m + near_m_ ? Answer::kYes : Answer::kOpen;
+}
+
 CubeContact::Answer CubeContact::OfAnyShape(const Eigen::Vector3d& center_F,
                                             double half_edge_m) const {
+  if (mesh_ != nullptr) return OfMesh(center_F, half_edge_m);
   const std::optional<Eigen::Vector3d> to_center_F = shape_.FromNearestPoint(center_F);
   return to_center_F ? Between(*to_center_F, half_edge_m) : Answer::kOpen;
 }

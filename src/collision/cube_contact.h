@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 
 #include "collision/narrowphase.h"
@@ -17,35 +18,54 @@ class CubeContact {
   // kNo and kYes are certain, with 1e-9 m to spare; kOpen is not known.
   enum class Answer { kNo, kYes, kOpen };
   Answer Of(const Eigen::Vector3d& center_F, double half_edge_m) const {
-    if (!core_) return OfAnyShape(center_F, half_edge_m);
-    const Eigen::Vector3d to_center = FromCore(center_F);
-    const double squared = to_center.squaredNorm();
-    const double beyond_ball_m = kToCorner * half_edge_m + far_m_;
-    if (squared > beyond_ball_m * beyond_ball_m) return Answer::kNo;
-    const double within_ball_m = half_edge_m + near_m_;
-    if (squared <= within_ball_m * within_ball_m) return Answer::kYes;
-    const Answer answer = Between(core_->R_F_G * to_center, half_edge_m);
-    if (answer != Answer::kOpen || !is_box_) return answer;
-    return OfBoxes(center_F, half_edge_m);
+    if (line_) return OfRounded(FromLine(center_F), half_edge_m);
+    if (!box_) return OfAnyShape(center_F, half_edge_m);
+    const Eigen::Vector3d to_center_G = FromBox(center_F);
+    if (const auto answer = ByBalls(to_center_G.squaredNorm(), half_edge_m)) return *answer;
+    const Answer answer = Between(box_->R_F_G * to_center_G, half_edge_m);
+    return answer == Answer::kOpen && sharp_ ? OfBoxes(center_F, half_edge_m) : answer;
   }
 
  private:
   static constexpr double kToCorner = 1.7320508075688774;  // of a cube's centre, in half edges
   static constexpr double kRounding_m = 1e-9;
 
-  // In G, from the nearest point of the box that, rounded, is the shape.
-  Eigen::Vector3d FromCore(const Eigen::Vector3d& p_F) const {
-    const Eigen::Vector3d p_G = core_->R_F_G.transpose() * (p_F - core_->origin_F);
-    return p_G - p_G.cwiseMin(core_->half_m).cwiseMax(-core_->half_m);
+  // From the nearest point of the line.
+  Eigen::Vector3d FromLine(const Eigen::Vector3d& p_F) const {
+    const Eigen::Vector3d from_middle_F = p_F - line_->center_F;
+    const double along_m = line_->axis_F.dot(from_middle_F);
+    return from_middle_F - std::clamp(along_m, -line_->half_m, line_->half_m) * line_->axis_F;
+  }
+  // In G, from the nearest point of the box.
+  Eigen::Vector3d FromBox(const Eigen::Vector3d& p_F) const {
+    const Eigen::Vector3d p_G = box_->R_F_G.transpose() * (p_F - box_->origin_F);
+    return p_G - p_G.cwiseMin(box_->half_m).cwiseMax(-box_->half_m);
+  }
+  // What the balls about the cube and in it tell.
+  std::optional<Answer> ByBalls(double squared_distance, double half_edge_m) const {
+    const double beyond_ball_m = kToCorner * half_edge_m + far_m_;
+    if (squared_distance > beyond_ball_m * beyond_ball_m) return Answer::kNo;
+    const double within_ball_m = half_edge_m + near_m_;
+    if (squared_distance <= within_ball_m * within_ball_m) return Answer::kYes;
+    return std::nullopt;
+  }
+  Answer OfRounded(const Eigen::Vector3d& to_center_F, double half_edge_m) const {
+    const auto answer = ByBalls(to_center_F.squaredNorm(), half_edge_m);
+    return answer ? *answer : Between(to_center_F, half_edge_m);
   }
   Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfAnyShape(const Eigen::Vector3d& center_F, double half_edge_m) const;
 
   const PlacedShape& shape_;
-  std::optional<RoundedBox> core_;
-  bool is_box_;  // not rounded, and without a margin
-  // A cube certainly touches if it is as near as near_m_ to the core, and does not beyond far_m_.
+  // At most one of these.
+  std::optional<RoundedLine> line_;
+  std::optional<TurnedBox> box_;
+  const PreparedMesh* mesh_;
+  bool sharp_;  // neither rounded nor with a margin
+  // A cube certainly touches if it is as near as near_m_ to the line or to the shape, and does not
+  // beyond far_m_.
   double near_m_, far_m_;
 };
 

@@ -1,13 +1,6 @@
 #include "collision/narrowphase.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <limits>
@@ -15,97 +8,24 @@
 #include "clearway/geometry/hull.h"
 #include "collision/closed_form.h"
 #include "collision/contact_if_thrown.h"
+#include "collision/fcl_bodies.h"
+#include "collision/prepared_mesh.h"
 
 namespace clearway {
 namespace {
 
-using FclGeometry = fcl::CollisionGeometryd;
-
-// libccd's iterations stop at this change of the distance. With FCL's default of 1e-6 distances to
-// cylinders are wrong by up to 0.25 mm; with this one by less than 1e-9 m, in 1.5 times the time.
-// (The independent solver of FCL is not used: single box distances were off by 0.4 mm and more.)
-constexpr double kSolverTolerance = 1e-12;
-
-std::shared_ptr<FclGeometry> MakeConvex(const Mesh& mesh) {
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const auto& triangle : mesh.triangles) {
-    faces->push_back(3);
-    for (std::uint32_t index : triangle) faces->push_back(static_cast<int>(index));
+std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+    return std::make_shared<const PreparedMesh>(mesh->mesh);
   }
-  return std::make_shared<fcl::Convexd>(
-      std::make_shared<std::vector<Eigen::Vector3d>>(mesh.vertices),
-      static_cast<int>(mesh.triangles.size()), faces);
+  const auto* polytope = std::get_if<ConvexPolytope>(&shape);
+  if (polytope == nullptr || reuse == Reuse::kFewQueries) return nullptr;
+  Mesh hull = ConvexHullOf(polytope->mesh->vertices);
+  if (hull.triangles.empty()) return nullptr;
+  return std::make_shared<const PreparedMesh>(std::make_shared<const Mesh>(std::move(hull)));
 }
 
-std::shared_ptr<FclGeometry> MakeMesh(const Mesh& mesh) {
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  return model;
-}
-
-struct MakeFcl {
-  std::shared_ptr<FclGeometry> operator()(const Sphere& s) const {
-    return std::make_shared<fcl::Sphered>(s.radius_m);
-  }
-  std::shared_ptr<FclGeometry> operator()(const Box& b) const {
-    return std::make_shared<fcl::Boxd>(b.size_m);
-  }
-  std::shared_ptr<FclGeometry> operator()(const Capsule& c) const {
-    return std::make_shared<fcl::Capsuled>(c.radius_m, c.length_m);
-  }
-  std::shared_ptr<FclGeometry> operator()(const Cylinder& c) const {
-    return std::make_shared<fcl::Cylinderd>(c.radius_m, c.length_m);
-  }
-  std::shared_ptr<FclGeometry> operator()(const ConvexPolytope& c) const {
-    return MakeConvex(*c.mesh);
-  }
-  std::shared_ptr<FclGeometry> operator()(const TriangleMesh& t) const { return MakeMesh(*t.mesh); }
-};
-
-std::vector<Eigen::Vector3d> CornersOf(const Shape& shape) {
-  if (const auto* hull = std::get_if<ConvexPolytope>(&shape)) return hull->mesh->vertices;
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  if (mesh == nullptr) return {};
-  std::vector<Eigen::Vector3d> corners = ConvexHullOf(mesh->mesh->vertices).vertices;
-  return corners.empty() ? mesh->mesh->vertices : corners;  // a flat mesh has no hull
-}
-
-// Two bodies as FCL takes them. Their poses are relative to the obstacle's centre, so that nothing
-// is lost far from the origin.
-struct Pair {
-  const FclGeometry* shape;
-  Eigen::Isometry3d shape_pose;
-  const FclGeometry* obstacle;
-  Eigen::Isometry3d obstacle_pose;
-};
-
-Eigen::Isometry3d Placement(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = R;
-  pose.translation() = t;
-  return pose;
-}
-
-bool Collide(const Pair& pair) {
-  fcl::CollisionRequestd request;
-  request.gjk_tolerance = kSolverTolerance;
-  fcl::CollisionResultd result;
-  return fcl::collide(pair.shape, pair.shape_pose, pair.obstacle, pair.obstacle_pose, request,
-                      result) > 0;
-}
-
-double Distance(const Pair& pair) {
-  fcl::DistanceRequestd request;
-  request.distance_tolerance = kSolverTolerance;
-  fcl::DistanceResultd result;
-  // Negative in contact.
-  return std::max(0.0, fcl::distance(pair.shape, pair.shape_pose, pair.obstacle, pair.obstacle_pose,
-                                     request, result));
-}
+Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
 
 }  // namespace
 
@@ -113,14 +33,11 @@ struct ShapeGeometry::Fcl {
   std::shared_ptr<const FclGeometry> geometry;
 };
 
-ShapeGeometry::ShapeGeometry(const Shape& shape)
+ShapeGeometry::ShapeGeometry(const Shape& shape, Reuse reuse)
     : shape_(shape),
       box_G_(BoundingBox(shape)),
-      corners_G_(std::make_shared<const std::vector<Eigen::Vector3d>>(CornersOf(shape))) {
-  std::shared_ptr<FclGeometry> geometry = std::visit(MakeFcl{}, shape);
-  geometry->computeLocalAABB();
-  fcl_ = std::make_shared<const Fcl>(Fcl{std::move(geometry)});
-}
+      prepared_(Prepare(shape, reuse)),
+      fcl_(std::make_shared<const Fcl>(Fcl{ToFcl(shape)})) {}
 
 PlacedShape::PlacedShape(const ShapeGeometry& geometry, const Pose& T_F_G)
     : geometry_(&geometry),
@@ -142,8 +59,10 @@ Aabb PlacedShape::TightBox() const {
     half = axis * cylinder->length_m / 2 +
            (1 - axis.array().square()).max(0).sqrt().matrix() * cylinder->radius_m;
   } else {
+    const PreparedMesh* mesh = geometry_->prepared();
+    if (mesh != nullptr) return Moved(mesh->BoxTurned(R_F_G_), origin_F());
     Aabb around;
-    for (const Eigen::Vector3d& corner_G : geometry_->corners_G()) {
+    for (const Eigen::Vector3d& corner_G : std::get<ConvexPolytope>(shape).mesh->vertices) {
       around.Extend(R_F_G_ * corner_G + origin_F());
     }
     return around;
@@ -152,7 +71,9 @@ Aabb PlacedShape::TightBox() const {
 }
 
 bool PlacedShape::Contains(const Eigen::Vector3d& p_F) const {
-  return clearway::Contains(geometry_->shape(), ToG(p_F));
+  const Eigen::Vector3d p_G = ToG(p_F);
+  const PreparedMesh* mesh = geometry_->prepared();
+  return mesh != nullptr ? mesh->Contains(p_G) : clearway::Contains(geometry_->shape(), p_G);
 }
 
 std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector3d& p_F) const {
@@ -162,18 +83,21 @@ std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector
   return R_F_G_ * (p_G - NearestPoint(p_G, *cylinder));
 }
 
-std::optional<RoundedBox> PlacedShape::AsRoundedBox() const {
+std::optional<RoundedLine> PlacedShape::AsRoundedLine() const {
   const Shape& shape = geometry_->shape();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), Eigen::Vector3d::Zero(), sphere->radius_m};
-  }
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), 0.5 * box->size_m, 0};
+    return RoundedLine{origin_F(), R_F_G_.col(2), 0, sphere->radius_m};
   }
   if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    return RoundedBox{R_F_G_, origin_F(), {0, 0, 0.5 * capsule->length_m}, capsule->radius_m};
+    return RoundedLine{origin_F(), R_F_G_.col(2), 0.5 * capsule->length_m, capsule->radius_m};
   }
   return std::nullopt;
+}
+
+std::optional<TurnedBox> PlacedShape::AsBox() const {
+  const auto* box = std::get_if<Box>(&geometry_->shape());
+  if (box == nullptr) return std::nullopt;
+  return TurnedBox{R_F_G_, origin_F(), 0.5 * box->size_m};
 }
 
 // The gap along F's axes, or that along G's.
@@ -197,19 +121,14 @@ double PlacedShape::DistanceTo(const Aabb& box_F, double up_to_m) const {
     return std::max(
         0.0, SegmentBoxDistance(origin_F() - tip, origin_F() + tip, box_F) - capsule->radius_m);
   }
+  const Eigen::Vector3d center_F = box_F.Center();
+  if (const PreparedMesh* mesh = geometry_->prepared()) {
+    return mesh->DistanceTo({ToG(center_F), R_F_G_, 0.5 * (box_F.max - box_F.min)}, up_to_m);
+  }
   return ContactIfThrown([&] {
-    const Eigen::Vector3d center_F = box_F.Center();
     const fcl::Boxd box(box_F.max - box_F.min);
-    const Pair pair = {geometry_->fcl().geometry.get(), Placement(R_F_G_, origin_F() - center_F),
-                       &box, Eigen::Isometry3d::Identity()};
-    if (!std::holds_alternative<TriangleMesh>(shape)) return Distance(pair);
-    // FCL sees a mesh's surface only; where that misses the box, the box is inside whole or not at
-    // all. Its distances are ten times slower than its yes or no, hence the grown box.
-    if (Collide(pair) || Contains(center_F)) return 0.0;
-    const fcl::Boxd grown((box.side.array() + 2 * up_to_m).matrix());
-    const bool near =
-        up_to_m > 0 && Collide({pair.shape, pair.shape_pose, &grown, pair.obstacle_pose});
-    return near ? Distance(pair) : std::numeric_limits<double>::infinity();
+    return Distance({geometry_->fcl().geometry.get(), Placement(R_F_G_, origin_F() - center_F),
+                     &box, Eigen::Isometry3d::Identity()});
   });
 }
 
@@ -226,11 +145,12 @@ double PlacedShape::DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H,
   const double bound_m = LowerBound(Transformed(T_F_H, hull.box_G()));
   if (bound_m > up_to_m) return bound_m;
   return ContactIfThrown([&] {
-    const Pair pair{geometry_->fcl().geometry.get(),
-                    Placement(R_F_G_, origin_F() - T_F_H.translation), hull.fcl().geometry.get(),
-                    Placement(R_F_H, Eigen::Vector3d::Zero())};
+    const FclPair pair{geometry_->fcl().geometry.get(),
+                       Placement(R_F_G_, origin_F() - T_F_H.translation), hull.fcl().geometry.get(),
+                       Placement(R_F_H, Eigen::Vector3d::Zero())};
     if (!std::holds_alternative<TriangleMesh>(shape)) return Distance(pair);
-    const Eigen::Vector3d corner_F = T_F_H * hull.corners_G().front();
+    const Mesh& hull_mesh = *std::get<ConvexPolytope>(hull.shape()).mesh;
+    const Eigen::Vector3d corner_F = T_F_H * hull_mesh.vertices.front();
     return Collide(pair) || Contains(corner_F) ? 0.0 : Distance(pair);
   });
 }
@@ -239,7 +159,11 @@ double PlacedShape::DistanceToBall(const Eigen::Vector3d& center_F, double radiu
                                    double up_to_m) const {
   const double bound_m = PointBoxDistance(center_F, box_F_) - radius_m;
   if (bound_m > up_to_m) return bound_m;
-  return std::max(0.0, PointShapeDistance(ToG(center_F), geometry_->shape()) - radius_m);
+  const Eigen::Vector3d center_G = ToG(center_F);
+  const PreparedMesh* mesh = geometry_->prepared();
+  return std::max(0.0, (mesh != nullptr ? mesh->DistanceTo(center_G, up_to_m + radius_m)
+                                        : PointShapeDistance(center_G, geometry_->shape())) -
+                           radius_m);
 }
 
 }  // namespace clearway

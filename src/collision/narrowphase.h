@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/pose.h"
@@ -12,17 +11,23 @@
 
 namespace clearway {
 
+class PreparedMesh;
+
+// How much work is worth while on a shape before it is asked about.
+enum class Reuse { kFewQueries, kManyQueries };
+
 // A shape prepared for distance queries, in its own frame G. Immutable and cheap to copy; threads
 // share it.
 class ShapeGeometry {
  public:
   // Meshes must not be empty.
-  explicit ShapeGeometry(const Shape& shape);
+  explicit ShapeGeometry(const Shape& shape, Reuse reuse = Reuse::kFewQueries);
 
   const Shape& shape() const { return shape_; }
   const Aabb& box_G() const { return box_G_; }
-  // For hulls and meshes, points whose convex hull is the shape's; empty for the others.
-  const std::vector<Eigen::Vector3d>& corners_G() const { return *corners_G_; }
+
+  // Of every mesh, and of hulls that are worth it; null for the others.
+  const PreparedMesh* prepared() const { return prepared_.get(); }
 
   struct Fcl;  // FCL's form of the shape
   const Fcl& fcl() const { return *fcl_; }
@@ -30,16 +35,23 @@ class ShapeGeometry {
  private:
   Shape shape_;
   Aabb box_G_;
-  std::shared_ptr<const std::vector<Eigen::Vector3d>> corners_G_;
+  std::shared_ptr<const PreparedMesh> prepared_;
   std::shared_ptr<const Fcl> fcl_;
 };
 
-// A box at a pose in F, grown by a radius: a sphere is a rounded point, a capsule a rounded line.
-struct RoundedBox {
+// A sphere or a capsule at a pose in F: a point or a line, grown by a radius.
+struct RoundedLine {
+  Eigen::Vector3d center_F;
+  Eigen::Vector3d axis_F;  // of length 1
+  double half_m;           // of the line's length
+  double radius_m;
+};
+
+// A box at a pose in F.
+struct TurnedBox {
   Eigen::Matrix3d R_F_G;
   Eigen::Vector3d origin_F;
   Eigen::Vector3d half_m;  // of its edges, along G's axes
-  double radius_m;
 };
 
 // A shape at a pose in a frame F. Immutable; refers to the geometry it was made of.
@@ -57,21 +69,24 @@ class PlacedShape {
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
-  // The same set of points, if the shape is a sphere, box or capsule.
-  std::optional<RoundedBox> AsRoundedBox() const;
+  // The same set of points, if the shape is of that kind.
+  std::optional<RoundedLine> AsRoundedLine() const;
+  std::optional<TurnedBox> AsBox() const;
+  // The shape as a mesh, if it is prepared for that, and p as its frame sees it.
+  const PreparedMesh* AsMesh() const { return geometry_->prepared(); }
+  Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
+    return R_F_G_.transpose() * (p_F - T_F_G_.translation);
+  }
   // The vector to p from the shape's nearest point, 0 inside; of cylinders alone.
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
-  // A convex hull at T_F_H.
+  // `hull` is that of a ConvexPolytope, at T_F_H.
   double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
   double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
 
  private:
   const Eigen::Vector3d& origin_F() const { return T_F_G_.translation; }
-  Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
-    return R_F_G_.transpose() * (p_F - T_F_G_.translation);
-  }
   Aabb TightBox() const;
   double LowerBound(const Aabb& box_F) const;
 

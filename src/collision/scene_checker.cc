@@ -10,14 +10,15 @@
 namespace clearway {
 struct SceneChecker::Impl {
   ScenePtr scene;
-  Robot robot;
-  RobotGeometry geometry;
+  std::shared_ptr<const PreparedRobot> robot;
   ObjectHulls hulls;
 };
 
+SceneChecker::SceneChecker(ScenePtr scene, std::shared_ptr<const PreparedRobot> robot)
+    : impl_(std::make_unique<const Impl>(Impl{scene, std::move(robot), PrepareHulls(*scene)})) {}
+
 SceneChecker::SceneChecker(ScenePtr scene, Robot robot)
-    : impl_(std::make_unique<const Impl>(
-          Impl{scene, robot, PrepareRobot(robot), PrepareHulls(*scene)})) {}
+    : SceneChecker(std::move(scene), std::make_shared<const PreparedRobot>(std::move(robot))) {}
 
 SceneChecker::~SceneChecker() = default;
 
@@ -29,8 +30,8 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
 absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
                                                const CheckOptions& options,
                                                const std::function<bool()>& cancelled) const {
-  if (auto status = Validate(options, impl_->robot); !status.ok()) return status;
-  if (auto status = Validate(states, impl_->robot); !status.ok()) return status;
+  if (auto status = Validate(options, robot()); !status.ok()) return status;
+  if (auto status = Validate(states, robot()); !status.ok()) return status;
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
                                                             options.allowed_contacts.end());
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
@@ -38,15 +39,16 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   const auto [first, last] = std::minmax_element(states.times.begin(), states.times.end());
   ObjectPlacer objects(*impl_->scene, impl_->hulls, options, *first, *last);
   const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
-  StateCheck check(context, impl_->geometry);
+  StateCheck check(context, impl_->robot->geometry());
+  const std::size_t links = robot().links.size();
   for (std::size_t s = 0; s < states.times.size(); ++s) {
-    reply.answers[s] = check.Answer(states.times[s], &states.T_W_L[s * impl_->geometry.size()]);
+    reply.answers[s] = check.Answer(states.times[s], &states.T_W_L[s * links]);
     if (cancelled()) return absl::CancelledError("the check was cancelled");
   }
   return reply;
 }
 
-const Robot& SceneChecker::robot() const { return impl_->robot; }
+const Robot& SceneChecker::robot() const { return impl_->robot->robot(); }
 std::uint64_t SceneChecker::version() const { return impl_->scene->version; }
 Time SceneChecker::stamp() const { return impl_->scene->stamp; }
 

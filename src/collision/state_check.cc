@@ -7,28 +7,28 @@
 #include "collision/voxel_distance.h"
 
 namespace clearway {
+namespace {
 
-RobotGeometry PrepareRobot(const Robot& robot) {
-  RobotGeometry geometry;
-  for (const Link& link : robot.links) {
-    LinkGeometry& prepared = geometry.emplace_back();
-    for (const LinkShape& shape : link.shapes) {
-      const bool at_origin = shape.T_L_G == Pose{};
-      prepared.parts.push_back(
-          {ShapeGeometry(shape.shape), at_origin ? std::nullopt : std::optional(shape.T_L_G)});
-    }
-  }
-  return geometry;
+Pose Normalized(const Pose& pose) { return {pose.rotation.normalized(), pose.translation}; }
+
+}  // namespace
+
+StateCheck::StateCheck(const CheckContext& context, const RobotGeometry& robot)
+    : context_(context), robot_(robot), bounds_W_(context.scene.params.bounds_W) {
+  const double limit_m = context.scene.static_map_W.grid().limit_m();
+  bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
+  bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
 }
 
 void StateCheck::Place(const Pose* T_W_L) {
   shapes_W_.clear();
   first_shapes_.clear();
-  for (std::size_t link = 0; link < robot_.size(); ++link) {
+  for (std::size_t link = 0; link < robot_.links().size(); ++link) {
     first_shapes_.push_back(shapes_W_.size());
-    const Pose T_W_link{T_W_L[link].rotation.normalized(), T_W_L[link].translation};
-    for (const LinkGeometry::Part& part : robot_[link].parts) {
-      shapes_W_.emplace_back(part.geometry, part.T_L_G ? T_W_link * *part.T_L_G : T_W_link);
+    const Pose& T_W_link = T_W_L[link];
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
+      shapes_W_.emplace_back(part.geometry,
+                             part.T_L_G ? Normalized(T_W_link) * *part.T_L_G : T_W_link);
     }
   }
   first_shapes_.push_back(shapes_W_.size());
@@ -78,14 +78,11 @@ StateAnswer StateCheck::Answer(Time time, const Pose* T_W_L) {
 }
 
 std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
-  const Aabb& bounds = context_.scene.params.bounds_W;
-  const VoxelGrid& grid = context_.scene.static_map_W.grid();
   for (int link = 0; link < links(); ++link) {
     for (const PlacedShape& shape : ShapesOf(link)) {
-      for (const Eigen::Vector3d& corner : {shape.box_F().min, shape.box_F().max}) {
-        if (bounds.Contains(corner) && grid.Addressable(corner)) continue;
-        return Touch{link, kStaticLabel};
-      }
+      const Aabb& box_W = shape.box_F();
+      if (bounds_W_.Contains(box_W.min) && bounds_W_.Contains(box_W.max)) continue;
+      return Touch{link, kStaticLabel};
     }
   }
   return std::nullopt;

@@ -10,20 +10,10 @@
 #include "clearway/collision/state_checker.h"
 #include "collision/narrowphase.h"
 #include "collision/placed_object.h"
+#include "collision/robot_geometry.h"
 #include "collision/voxel_search.h"
 
 namespace clearway {
-
-// A robot's shapes prepared for placing.
-struct LinkGeometry {
-  struct Part {
-    ShapeGeometry geometry;
-    std::optional<Pose> T_L_G;  // none: G is L
-  };
-  std::vector<Part> parts;
-};
-using RobotGeometry = std::vector<LinkGeometry>;  // by link
-RobotGeometry PrepareRobot(const Robot& robot);
 
 // What all states have in common. Refers to all of it.
 struct CheckContext {
@@ -37,8 +27,7 @@ struct CheckContext {
 // Checks one state after the other. Lives on one thread's stack.
 class StateCheck {
  public:
-  StateCheck(const CheckContext& context, const RobotGeometry& robot)
-      : context_(context), robot_(robot) {}
+  StateCheck(const CheckContext& context, const RobotGeometry& robot);
 
   // The whole rule, in the order of precedence of SpaceStatus. T_W_L: one pose per link.
   StateAnswer Answer(Time time, const Pose* T_W_L);
@@ -52,7 +41,7 @@ class StateCheck {
   void Place(const Pose* T_W_L);
   Aabb SearchedBox() const;  // what lies beyond does not matter to the answer
   std::span<const PlacedShape> ShapesOf(int link) const;
-  int links() const { return static_cast<int>(robot_.size()); }
+  int links() const { return static_cast<int>(robot_.links().size()); }
 
   std::optional<Touch> OutOfBounds() const;
   std::optional<Touch> Occupied() const;
@@ -68,6 +57,7 @@ class StateCheck {
 
   const CheckContext& context_;
   const RobotGeometry& robot_;
+  Aabb bounds_W_;                          // within which voxels can be told
   std::vector<PlacedShape> shapes_W_;      // link by link
   std::vector<std::size_t> first_shapes_;  // of each link, and the end
   const std::vector<PlacedObject>* objects_ = nullptr;

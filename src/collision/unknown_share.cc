@@ -22,11 +22,12 @@ bool AnyUnobserved(const VoxelMap& map, const std::vector<const PlacedShape*>& s
   for (const PlacedShape* shape : shapes) {
     KeyRange keys;
     if (!KeysTouching(map.grid(), shape->box_F(), keys)) continue;
-    const bool any = AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
-                              [&](BlockKey key, const VoxelBlock* block) {
-                                if (block == nullptr) return true;
-                                return MaskOfRange(key, keys).Subtract(block->observed).Any();
-                              });
+    const bool any =
+        AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+                 [&](BlockKey key, const VoxelBlock* block) {
+                   if (block == nullptr) return true;
+                   return RangeInBlock(key, keys).All().Subtract(block->observed).Any();
+                 });
     if (any || cancelled()) return true;
   }
   return false;
@@ -54,7 +55,7 @@ Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
                    Eigen::Vector3d::Constant(half_block_m - 0.5 * map.grid().resolution_m());
                if (contact.Of(middle, half_block_m) == CubeContact::Answer::kNo) return false;
                const BlockMask unobserved = UnobservedIn(block);
-               MaskOfRange(block_key, keys).ForEach([&](int index) {
+               RangeInBlock(block_key, keys).All().ForEach([&](int index) {
                  const Eigen::Vector3d center = map.grid().CenterOf(VoxelAt(block_key, index));
                  if (!shapes[i]->Contains(center) || counted_before(center)) return;
                  ++count.all;

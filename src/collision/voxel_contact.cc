@@ -106,10 +106,8 @@ bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margi
   const Search search(map.grid(), shape, margin_m);
   return map.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
                                     [&](BlockKey key, const VoxelBlock& block) {
-                                      BlockMask voxels = MaskOfRange(key, keys);
-                                      for (int z = 0; z < kBlockSize; ++z)
-                                        voxels.words[z] &= block.occupied.words[z];
-                                      return search.Touches(key, voxels);
+                                      const RangeInBlock range(key, keys);
+                                      return search.Touches(key, range.Of(block.occupied));
                                     });
 }
 
@@ -126,7 +124,7 @@ bool TouchesUnobserved(const VoxelMap& map, const PlacedShape& shape,
   }
   const Search search(map.grid(), shape, margin_m);
   return AnyBlock(map.blocks(), first, last, [&](BlockKey key, const VoxelBlock* block) {
-    BlockMask voxels = MaskOfRange(key, keys);
+    BlockMask voxels = RangeInBlock(key, keys).All();
     for (int z = 0; z < kBlockSize; ++z) {
       if (block != nullptr) voxels.words[z] &= ~block->observed.words[z];
     }

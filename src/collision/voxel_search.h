@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -26,8 +27,43 @@ inline bool InOneOf(const std::vector<Aabb>& boxes, const Eigen::Vector3d& p) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& box) { return box.Contains(p); });
 }
 
-// The voxels of one block that lie in the range.
-BlockMask MaskOfRange(BlockKey block, const KeyRange& keys);
+// The voxels of one block that lie in a range: the same ones in layers first_z to last_z.
+class RangeInBlock {
+ public:
+  RangeInBlock(BlockKey block, const KeyRange& keys) {
+    const VoxelKey base = VoxelAt(block, 0);
+    const auto first = [](std::int32_t key, std::int32_t from) { return std::max(key - from, 0); };
+    const auto last = [](std::int32_t key, std::int32_t from) {
+      return std::min(key - from, kBlockSize - 1);
+    };
+    // Eight bits for the row along x, eight bytes for its copies along y.
+    const std::uint64_t row =
+        (0xffu >> (7 - last(keys.max.x, base.x))) & (0xffu << first(keys.min.x, base.x));
+    constexpr std::uint64_t kAll = ~std::uint64_t{0};
+    layer_ = row * 0x0101'0101'0101'0101 & kAll >> 8 * (7 - last(keys.max.y, base.y)) &
+             kAll << 8 * first(keys.min.y, base.y);
+    first_z_ = first(keys.min.z, base.z);
+    last_z_ = last(keys.max.z, base.z);
+  }
+
+  // Word by word, as what is stored so is read back without a wait.
+  BlockMask Of(const BlockMask& mask) const {
+    BlockMask in_range;
+    for (int z = 0; z < kBlockSize; ++z) in_range.words[z] = Layer(z) & mask.words[z];
+    return in_range;
+  }
+  BlockMask All() const {
+    BlockMask in_range;
+    for (int z = 0; z < kBlockSize; ++z) in_range.words[z] = Layer(z);
+    return in_range;
+  }
+
+ private:
+  std::uint64_t Layer(int z) const { return z >= first_z_ && z <= last_z_ ? layer_ : 0; }
+
+  std::uint64_t layer_;
+  int first_z_, last_z_;
+};
 
 // The voxels of a block that were never observed. A null block has never been.
 inline BlockMask UnobservedIn(const VoxelBlock* block) {

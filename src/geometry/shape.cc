@@ -21,20 +21,13 @@ Aabb MeshBox(const Mesh& mesh) {
   return box;
 }
 
-// The solid angle of a triangle seen from p; Van Oosterom and Strackee, 1983.
-double SolidAngle(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
-                  const Eigen::Vector3d& p) {
-  const Eigen::Vector3d a = mesh.vertices[triangle[0]] - p;
-  const Eigen::Vector3d b = mesh.vertices[triangle[1]] - p;
-  const Eigen::Vector3d c = mesh.vertices[triangle[2]] - p;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)),
-                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
-
+// Nothing is inside beyond the mesh's box, in whatever way its pieces wind.
 bool WindingContains(const Mesh& mesh, const Eigen::Vector3d& p) {
+  if (!MeshBox(mesh).Contains(p)) return false;
   double angle = 0;
-  for (const auto& triangle : mesh.triangles) angle += SolidAngle(mesh, triangle, p);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    angle += SolidAngle(mesh.vertices[a] - p, mesh.vertices[b] - p, mesh.vertices[c] - p);
+  }
   return std::abs(angle) > 2 * std::numbers::pi;  // half of a full turn of 4 pi
 }
 
@@ -74,6 +67,12 @@ bool Contains(const Shape& shape, const Eigen::Vector3d& p_G) {
           [&](const TriangleMesh& t) { return WindingContains(*t.mesh, p_G); },
       },
       shape);
+}
+
+double SolidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 bool NearHull(const Mesh& hull, const Eigen::Vector3d& p, double margin_m) {

@@ -8,6 +8,7 @@
 #include "collision/brute_force.h"
 #include "collision/random_world.h"
 #include "collision/tally.h"
+#include "collision/test_meshes.h"
 #include "collision/test_world.h"
 
 namespace clearway {
@@ -62,6 +63,37 @@ TEST(SceneCheckerTest, AgreesWithBruteForceForManyLinks) {
                            "seed " + std::to_string(seed));
   }
   ExpectEveryAnswerOccurred(tally);
+}
+
+TEST(SceneCheckerTest, AgreesWithBruteForceForMeshesOfAllKinds) {
+  Tally tally;
+  std::uint32_t seed = 2000;
+  for (const TestMesh& test : TestMeshes()) {
+    if (test.size_m > 1) continue;  // never within the bounds
+    RandomWorld random(++seed);
+    const ScenePtr scene = random.Scene();
+    const Robot robot = Robot::SingleShape(test.name, TriangleMesh{test.regular});
+    CheckAgainstBruteForce(random, scene, robot, 40, tally, test.name);
+  }
+  ExpectEveryAnswerOccurred(tally);
+}
+
+TEST(SceneCheckerTest, OnePreparedRobotServesTheCheckersOfManyScenes) {
+  RandomWorld random(3);
+  const Robot robot = random.AnyRobot();
+  const auto prepared = std::make_shared<const PreparedRobot>(robot);
+  for (int i = 0; i < 5; ++i) {
+    const ScenePtr scene = random.Scene();
+    const StateBatch states = random.States(robot, 30);
+    const CheckOptions options = random.Options(robot);
+    const auto dut = SceneChecker(scene, prepared).Check(states, options);
+    const auto expected = SceneChecker(scene, robot).Check(states, options);
+    ASSERT_TRUE(dut.ok() && expected.ok());
+    for (std::size_t s = 0; s < states.times.size(); ++s) {
+      EXPECT_EQ(dut->answers[s].status, expected->answers[s].status);
+      EXPECT_EQ(dut->answers[s].clearance_m, expected->answers[s].clearance_m);
+    }
+  }
 }
 
 // A state of 80 million voxels would take many seconds.

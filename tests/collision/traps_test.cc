@@ -37,7 +37,7 @@ TEST(TrapsTest, OnlyVoxelsAtTheShapeAreLookedAt) {
   int seen = 0;
   map.blocks().ForEachIn(
       BlockOf(keys.min), BlockOf(keys.max), [&](BlockKey key, const VoxelBlock& block) {
-        MaskOfRange(key, keys).ForEach([&](int i) { seen += block.occupied.Test(i); });
+        RangeInBlock(key, keys).All().ForEach([&](int i) { seen += block.occupied.Test(i); });
       });
   EXPECT_EQ(seen, 3 * 2 * 1);
 }

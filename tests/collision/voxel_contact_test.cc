@@ -6,6 +6,7 @@
 
 #include "clearway/geometry/hull.h"
 #include "collision/cube_contact.h"
+#include "collision/test_meshes.h"
 #include "support/random.h"
 
 namespace clearway {
@@ -43,15 +44,6 @@ TEST(CubeContact, CertainAnswersAreRight) {
   }
 }
 
-TEST(CubeContact, NothingIsCertainOfMeshes) {
-  const std::vector<Eigen::Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto mesh = std::make_shared<const Mesh>(ConvexHullOf(corners));
-  const ShapeGeometry geometry(TriangleMesh{mesh});
-  const PlacedShape placed(geometry, Pose{});
-  const CubeContact dut(placed, 0);
-  EXPECT_EQ(dut.Of({9, 9, 9}, 0.1), CubeContact::Answer::kOpen);
-}
-
 class VoxelContactTest : public testing::Test {
  protected:
   VoxelContactTest() {
@@ -80,9 +72,18 @@ class VoxelContactTest : public testing::Test {
 
 TEST_F(VoxelContactTest, AgreesWithALookAtEveryVoxel) {
   std::array<int, 2> occupied{}, unobserved{};
-  for (const Shape& shape : Shapes()) {
-    const ShapeGeometry geometry(shape);
-    for (int i = 0; i < 60; ++i) {
+  std::vector<Shape> shapes = Shapes();
+  for (const TestMesh& test : TestMeshes()) {
+    if (test.size_m > 1) continue;
+    shapes.push_back(TriangleMesh{test.mesh});
+    Mesh hull = ConvexHullOf(test.mesh->vertices);
+    if (hull.triangles.empty()) continue;
+    shapes.push_back(ConvexPolytope{std::make_shared<const Mesh>(std::move(hull))});
+  }
+  for (const Shape& shape : shapes) {
+    const ShapeGeometry geometry(shape, Reuse::kManyQueries);
+    const int poses = geometry.prepared() == nullptr ? 60 : 12;
+    for (int i = 0; i < poses; ++i) {
       const PlacedShape placed(geometry, random_.AnyPose(0.8));
       const double margin_m = i % 3 == 0 ? random_.Uniform(0, 0.1) : 0;
       const bool touches = TouchesOccupied(map_, placed, margin_m);

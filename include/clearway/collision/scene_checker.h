@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "clearway/collision/prepared_robot.h"
 #include "clearway/collision/state_checker.h"
 
 namespace clearway {
@@ -12,7 +13,9 @@ namespace clearway {
 // one. FCL does shape against shape; an exception of it counts as contact.
 class SceneChecker : public StateChecker {
  public:
-  // `robot` must pass Validate.
+  // What takes long is in `robot`: make it once, and a checker for each version of the scene.
+  SceneChecker(ScenePtr scene, std::shared_ptr<const PreparedRobot> robot);
+  // Prepares the robot, which must pass Validate, for itself alone.
   SceneChecker(ScenePtr scene, Robot robot);
   ~SceneChecker() override;
 

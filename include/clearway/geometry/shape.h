@@ -54,8 +54,13 @@ using Shape = std::variant<Sphere, Box, Capsule, Cylinder, ConvexPolytope, Trian
 Aabb BoundingBox(const Shape& shape);
 
 // Whether the point lies in the shape (boundary included). A TriangleMesh counts as solid here if
-// it is closed: by the winding number, Jacobson et al., "Robust Inside-Outside Segmentation", 2013.
+// it is closed: by the winding number, Jacobson et al., "Robust Inside-Outside Segmentation", 2013;
+// of an open one, the points in its box that it winds round by more than half.
 bool Contains(const Shape& shape, const Eigen::Vector3d& p_G);
+
+// The solid angle of the triangle seen from the origin in steradians, positive if its corners are
+// clockwise from there: if the origin is behind it. Van Oosterom and Strackee, 1983.
+double SolidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 // Whether p lies in the convex hull or at most margin_m from every face's plane that it is outside
 // of: true for all points within margin_m of the hull, and for a few more near its edges.

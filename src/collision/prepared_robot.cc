@@ -1,0 +1,25 @@
+#include "clearway/collision/prepared_robot.h"
+
+#include <utility>
+
+#include "collision/robot_geometry.h"
+
+namespace clearway {
+
+RobotGeometry::RobotGeometry(const Robot& robot) {
+  for (const Link& link : robot.links) {
+    Parts& parts = links_.emplace_back();
+    for (const LinkShape& shape : link.shapes) {
+      const bool at_origin = shape.T_L_G == Pose{};
+      parts.push_back({ShapeGeometry(shape.shape, Reuse::kManyQueries),
+                       at_origin ? std::nullopt : std::optional(shape.T_L_G)});
+    }
+  }
+}
+
+PreparedRobot::PreparedRobot(Robot robot)
+    : robot_(std::move(robot)), geometry_(std::make_unique<const RobotGeometry>(robot_)) {}
+
+PreparedRobot::~PreparedRobot() = default;
+
+}  // namespace clearway

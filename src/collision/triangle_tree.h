@@ -1,0 +1,64 @@
+// A bounding volume hierarchy over triangles.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "clearway/geometry/shape.h"
+#include "collision/triangle_box.h"
+
+namespace clearway {
+
+// A mesh's triangles, sorted into a binary tree of axis-aligned boxes in the mesh's frame G.
+// Immutable; any number of threads may read it.
+class TriangleTree {
+ public:
+  // A box around some triangles: [first, first + count) of triangles() if it is a leaf, else those
+  // of the nodes `first` and `first + 1`.
+  struct Node {
+    Eigen::Vector3d center_G;
+    Eigen::Vector3d half_m;
+    std::uint32_t first;
+    std::uint32_t count;  // 0: not a leaf
+    bool Outside(const Eigen::Vector3d& p_G) const {
+      return ((p_G - center_G).cwiseAbs().array() > half_m.array()).any();
+    }
+  };
+
+  // The mesh must not be empty.
+  explicit TriangleTree(const Mesh& mesh);
+
+  const std::vector<Node>& nodes() const { return nodes_; }  // the root first
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  // Which of the mesh's triangles each of triangles() is.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+  // The distance in metres from the surface, and which of triangles() is that near; infinite if the
+  // surface is farther than up_to_m.
+  struct Nearest {
+    double distance_m;
+    std::uint32_t triangle;
+  };
+  Nearest NearestTo(const Eigen::Vector3d& p_G, double up_to_m) const;
+  Nearest NearestTo(const OrientedBox& box, double up_to_m) const;
+  bool Meets(const OrientedBox& box) const;
+
+ private:
+  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr int kMaxDepth = 40;  // halves of 2^32 triangles, and some to spare
+
+  void Build(std::uint32_t node, std::uint32_t first, std::uint32_t last,
+             const std::vector<Triangle>& all);
+  template <class Bound, class Measure>
+  Nearest Least(double up_to_m, const Bound& bound, const Measure& measure) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace clearway
