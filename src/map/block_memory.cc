@@ -93,8 +93,8 @@ void* TakeBlockMemory(std::size_t bytes) {
   }
 }
 
-void GiveBackBlockMemory(void* memory, std::size_t bytes) {
-  if constexpr (!kKept) return ::operator delete(memory, bytes, kCacheLine);
+void GiveBackBlockMemory(void* memory) {
+  if constexpr (!kKept) return ::operator delete(memory, kCacheLine);
   Piece* piece = new (memory) Piece{nullptr};
   PutFirst(AllShelves()[OwnShelf()], piece, piece);
 }

@@ -10,6 +10,6 @@ namespace clearway {
 // fresh pages for them takes longer than to fill them. Thread-safe; any thread may give back what
 // another took. `bytes` is the same in every call.
 void* TakeBlockMemory(std::size_t bytes);
-void GiveBackBlockMemory(void* memory, std::size_t bytes);
+void GiveBackBlockMemory(void* memory);
 
 }  // namespace clearway

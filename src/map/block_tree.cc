@@ -31,9 +31,7 @@ std::size_t HashOf(BlockKey key) {
 }  // namespace
 
 void* BlockTree::Leaf::operator new(std::size_t bytes) { return TakeBlockMemory(bytes); }
-void BlockTree::Leaf::operator delete(void* memory, std::size_t bytes) {
-  GiveBackBlockMemory(memory, bytes);
-}
+void BlockTree::Leaf::operator delete(void* memory, std::size_t) { GiveBackBlockMemory(memory); }
 
 void BlockTree::IndexRoots() {
   root_index_.assign(std::bit_ceil(2 * roots_.size() + 1), -1);

@@ -34,7 +34,7 @@ bool HoldOnly(const std::vector<void*>& pieces, int value) {
 }
 
 void GiveBack(const std::vector<void*>& pieces) {
-  for (void* piece : pieces) GiveBackBlockMemory(piece, kBytes);
+  for (void* piece : pieces) GiveBackBlockMemory(piece);
 }
 
 TEST(BlockMemory, PiecesAreApartAndAligned) {
