@@ -159,10 +159,13 @@ void Objects(Counters& counters, const std::vector<Frame>& scans) {
 }
 
 // A scan at the end of drives of several lengths: what it costs there, and what its delta does.
-void Lengths(Counters& counters, bool quick) {
+// `keep_distance_m` 0: all is kept.
+void Lengths(Counters& counters, const std::string& prefix, double keep_distance_m, bool quick) {
+  SceneParams params = Params(0.1, 30);
+  params.keep_distance_m = keep_distance_m;
   LongDrive drive;
   ThreadPool pool(1);
-  SceneBuilder builder(Params(0.1, 30), {}, pool);
+  SceneBuilder builder(params, {}, pool);
   ScenePtr before;
   for (const int length_m :
        quick ? std::vector{100, 240, 480} : std::vector{100, 480, 1000, 2500, 5000}) {
@@ -178,15 +181,16 @@ void Lengths(Counters& counters, bool quick) {
     });
     SceneDelta delta;
     const double diff_ms = Took<std::milli>([&] { delta = Diff(&*before, *after); });
-    const std::string x = "drive_m_" + std::to_string(length_m);
     const auto blocks = static_cast<double>(delta.static_map_W.size());
-    counters["curve_changed_blocks_" + x] = blocks;
-    counters["curve_integrate_us_per_block_" + x] = 1e3 * apply_ms / blocks;
-    counters["curve_diff_us_per_block_" + x] = 1e3 * diff_ms / blocks;
-    counters["curve_lookup_ns_" + x] = LookupNs(*after, after->static_map_W.ObservedBox());
-    counters["curve_check_ns_" + x] = CheckNs(after, Around(frame.T_W_S.translation));
-    counters["curve_map_mb_" + x] =
-        1e-6 * static_cast<double>(after->static_map_W.blocks().MemoryBytes());
+    const auto set = [&](const std::string& what, double value) {
+      counters["curve_" + what + "_" + prefix + "drive_m_" + std::to_string(length_m)] = value;
+    };
+    set("changed_blocks", blocks);
+    set("integrate_us_per_block", 1e3 * apply_ms / blocks);
+    set("diff_us_per_block", 1e3 * diff_ms / blocks);
+    set("lookup_ns", LookupNs(*after, after->static_map_W.ObservedBox()));
+    set("check_ns", CheckNs(after, Around(frame.T_W_S.translation)));
+    set("map_mb", 1e-6 * static_cast<double>(after->static_map_W.blocks().MemoryBytes()));
     before = after;
   }
 }
@@ -208,7 +212,9 @@ void Register(const Effort& effort) {
   add("ranges", [=](Counters& counters) { Ranges(counters, *scans); });
   add("resolutions", [=](Counters& counters) { Resolutions(counters, *scans); });
   add("objects", [=](Counters& counters) { Objects(counters, *scans); });
-  add("lengths", [=](Counters& counters) { Lengths(counters, effort.quick); });
+  const bool quick = effort.quick;
+  add("lengths", [=](Counters& counters) { Lengths(counters, "", 0, quick); });
+  add("lengths_rolling", [=](Counters& counters) { Lengths(counters, "rolling_", 60, quick); });
 }
 
 }  // namespace

@@ -37,7 +37,6 @@ class Search {
     if (!voxels.Any()) return false;
     constexpr int kFew = 8;  // are asked at once
     const VoxelKey base = VoxelAt(block, 0);
-    if (Misses(base, kBlockSize)) return false;
     if (AtMost(kFew, voxels)) return TouchesAny(block, voxels);
     for (int octant = 0; octant < 8; ++octant) {
       BlockMask inside = kOctants[octant];
@@ -51,6 +50,9 @@ class Search {
     }
     return false;
   }
+
+  // Surely none of the block's voxels touches.
+  bool Misses(BlockKey block) const { return Misses(VoxelAt(block, 0), kBlockSize); }
 
  private:
   bool TouchesAny(BlockKey block, const BlockMask& voxels) const {
@@ -106,6 +108,8 @@ bool TouchesOccupied(const VoxelMap& map, const PlacedShape& shape, double margi
   const Search search(map.grid(), shape, margin_m);
   return map.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
                                     [&](BlockKey key, const VoxelBlock& block) {
+                                      __builtin_prefetch(&block.occupied);
+                                      if (search.Misses(key)) return false;
                                       const RangeInBlock range(key, keys);
                                       return search.Touches(key, range.Of(block.occupied));
                                     });

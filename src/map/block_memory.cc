@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::align_val_t kCacheLine{64};
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1  // as GCC says it
+#endif
+#endif
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kKept = false;  // so that the sanitizer sees what is used after its end
 #else
@@ -67,15 +72,15 @@ bool Fetch(Shelves& shelves, std::size_t own) {
 
 // One huge page at a time, if the system has such: blocks are read and written all over a map, and
 // small pages would cost a walk through the page table for each of them.
-void Buy(Shelf& shelf, std::size_t bytes) {
+void Buy(Shelf& shelf) {
   constexpr std::size_t kBytes = std::size_t{1} << 21;
   constexpr std::align_val_t kAlignment{kBytes};
   auto* memory = static_cast<std::byte*>(::operator new(kBytes, kAlignment));
   madvise(memory, kBytes, MADV_HUGEPAGE);  // else it works too
   Piece* first = nullptr;
   Piece* last = nullptr;
-  for (std::size_t i = kBytes / bytes; i-- > 0;) {
-    first = new (memory + i * bytes) Piece{first};
+  for (std::size_t i = kBytes / kBlockMemoryBytes; i-- > 0;) {
+    first = new (memory + i * kBlockMemoryBytes) Piece{first};
     if (last == nullptr) last = first;
   }
   PutFirst(shelf, first, last);
@@ -83,13 +88,13 @@ void Buy(Shelf& shelf, std::size_t bytes) {
 
 }  // namespace
 
-void* TakeBlockMemory(std::size_t bytes) {
-  if constexpr (!kKept) return ::operator new(bytes, kCacheLine);
+void* TakeBlockMemory() {
+  if constexpr (!kKept) return ::operator new(kBlockMemoryBytes, kCacheLine);
   Shelves& shelves = AllShelves();
   const std::size_t own = OwnShelf();
   while (true) {
     if (Piece* piece = FirstOf(shelves[own])) return piece;
-    if (!Fetch(shelves, own)) Buy(shelves[own], bytes);
+    if (!Fetch(shelves, own)) Buy(shelves[own]);
   }
 }
 

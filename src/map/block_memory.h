@@ -8,8 +8,9 @@ namespace clearway {
 // Memory for one block, on a cache line's border. What is given back is kept for the blocks to come
 // and never returned to the system: a scan replaces tens of thousands of blocks, and to be given
 // fresh pages for them takes longer than to fill them. Thread-safe; any thread may give back what
-// another took. `bytes` is the same in every call.
-void* TakeBlockMemory(std::size_t bytes);
+// another took.
+inline constexpr std::size_t kBlockMemoryBytes = 1216;
+void* TakeBlockMemory();
 void GiveBackBlockMemory(void* memory);
 
 }  // namespace clearway

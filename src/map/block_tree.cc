@@ -30,7 +30,10 @@ std::size_t HashOf(BlockKey key) {
 
 }  // namespace
 
-void* BlockTree::Leaf::operator new(std::size_t bytes) { return TakeBlockMemory(bytes); }
+void* BlockTree::Leaf::operator new(std::size_t) {
+  static_assert(sizeof(Leaf) <= kBlockMemoryBytes);
+  return TakeBlockMemory();
+}
 void BlockTree::Leaf::operator delete(void* memory, std::size_t) { GiveBackBlockMemory(memory); }
 
 void BlockTree::IndexRoots() {

@@ -15,17 +15,18 @@ namespace {
 
 // Rays are walked in rounds: a few that lie apart, some more, then the rest, of which the first
 // steps are skipped where the rounds before have marked all there is to mark. Which of thirteen
-// rays in a row belong to what round; thirteen divides no camera's width.
+// rays in a row belong to what round; thirteen divides the width of hardly any camera.
 constexpr std::size_t kInARow = 13;
-const std::array<std::vector<std::size_t>, 3> kRounds{
-    {{0}, {4, 8, 11}, {1, 2, 3, 5, 6, 7, 9, 10, 12}}};
+constexpr std::array<std::size_t, 1> kFirstRound{0};
+constexpr std::array<std::size_t, 3> kSecondRound{4, 8, 11};
+constexpr std::array<std::size_t, 9> kLastRound{1, 2, 3, 5, 6, 7, 9, 10, 12};
 
 constexpr std::size_t kRaysAtOnce = 2048;  // prepared before they are walked
 
 // Fine cones skip more, but it takes time to look at each. This is flat around the best.
 int ConesAcross(std::size_t rays) {
   constexpr double kRays = 30;
-  return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(rays) / kRays)), 8, 128);
+  return 2 * std::clamp(static_cast<int>(std::sqrt(static_cast<double>(rays) / kRays) / 2), 4, 64);
 }
 
 class Marker {
@@ -112,7 +113,9 @@ int MainAxis(const Eigen::Vector3f& direction) {
 void MarkRays(const VoxelGrid& grid, std::span<const RaySegment> rays, BitWindow& window) {
   if (rays.empty()) return;
   Marker marker(grid, rays, window);
-  for (const auto& round : kRounds) marker.Walk(round, &round != &kRounds.front());
+  marker.Walk(kFirstRound, false);
+  marker.Walk(kSecondRound, true);
+  marker.Walk(kLastRound, true);
 }
 
 }  // namespace clearway

@@ -6,7 +6,8 @@
 namespace clearway {
 namespace {
 
-// Rays are taken to stray this far from their lines; rounding makes it a thousandth of that.
+// Rays are taken to stray this far from their lines near the origin; what rounding adds with the
+// distance is far below the widening of the slopes.
 constexpr double kStrayVoxels = 1e-2;
 
 std::int32_t RoundDown(double value) {
@@ -33,16 +34,17 @@ MarkedCones::MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, i
 }
 
 double MarkedCones::Depth_m(const Eigen::Vector3f& direction, const BitWindow& window) {
-  const float half = 0.5f * static_cast<float>(across_);
-  const float scale = half / std::abs(direction[axis_]);
+  const int half = across_ / 2;
+  const float scale = static_cast<float>(half) / std::abs(direction[axis_]);
   const auto along = [&](int axis) {
-    return std::clamp(static_cast<int>(half + scale * direction[axis]), 0, across_ - 1);
+    // Whatever rounds: no cone has directions of both signs.
+    const float outward = std::abs(scale * direction[axis]);  // perhaps not a number
+    const int cell = outward < static_cast<float>(half - 1) ? static_cast<int>(outward) : half - 1;
+    return direction[axis] < 0 ? half - 1 - cell : half + cell;
   };
   const int index = along(b_) + across_ * along(c_);
   Cone& cone = cones_[index];
-  if (!cone.looked) {
-    Look(index, window);
-  }
+  if (!cone.looked) Look(index, window);
   return (LayerBegin(cone.layers) - kStrayVoxels) * resolution_m_;
 }
 
@@ -54,10 +56,12 @@ void MarkedCones::Look(int index, const BitWindow& window) {
   // The cone's least and greatest slopes, widened by what Depth_m rounds.
   struct Slopes {
     double least, most;
+    bool negative;
   };
   const auto slopes_of = [this](int cell) -> Slopes {
     constexpr double kRounding = 1e-3;
-    return {2 * (cell - kRounding) / across_ - 1, 2 * (cell + 1 + kRounding) / across_ - 1};
+    return {2 * (cell - kRounding) / across_ - 1, 2 * (cell + 1 + kRounding) / across_ - 1,
+            cell < across_ / 2};
   };
   const Slopes b = slopes_of(index % across_), c = slopes_of(index / across_);
   Cone& cone = cones_[index];
@@ -71,6 +75,10 @@ void MarkedCones::Look(int index, const BitWindow& window) {
       const double most = slopes.most * (slopes.most < 0 ? near : far);
       min[axis] = RoundDown(origin_[axis] + least - kStrayVoxels);
       max[axis] = RoundDown(origin_[axis] + most + kStrayVoxels);
+      // All steps along the axis have one sign: none leads behind the origin's voxel.
+      auto& behind = slopes.negative ? max[axis] : min[axis];
+      behind = slopes.negative ? std::min(behind, origin_voxel_[axis])
+                               : std::max(behind, origin_voxel_[axis]);
     };
     spread(b_, b);
     spread(c_, c);

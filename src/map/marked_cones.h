@@ -17,8 +17,8 @@ namespace clearway {
 // grow. Not thread-safe.
 class MarkedCones {
  public:
-  // Directions whose component along `main_axis` is negative, or not; `across` cones along each of
-  // the other two axes.
+  // Directions whose component along `main_axis` is negative, or not; `across` cones, an even
+  // number, along each of the other two axes.
   MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, int main_axis, bool negative,
               int across);
 

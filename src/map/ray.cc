@@ -24,7 +24,8 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
   return {origin + direction * static_cast<float>(options.max_range_m), false};
 }
 
-// OctoMap mixes single and double precision here; so must we, to round alike.
+// OctoMap mixes single and double precision here; so must we, to round alike. StartLanes does the
+// same for eight rays.
 RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin,
                   const Eigen::Vector3f& end) {
   RayStart ray;
@@ -36,7 +37,8 @@ RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin,
   const double resolution_m = grid.resolution_m();
   const std::int32_t index[3] = {ray.key.x, ray.key.y, ray.key.z};
   for (int i = 0; i < 3; ++i) {
-    const float direction = difference[i] / length;
+    // No direction if the end is so near that single precision has no length for it.
+    const float direction = length > 0 ? difference[i] / length : 0;
     ray.step[i] = direction > 0 ? 1 : direction < 0 ? -1 : 0;
     if (ray.step[i] == 0) {
       ray.t_max[i] = ray.t_delta[i] = std::numeric_limits<double>::max();

@@ -35,7 +35,7 @@ CLEARWAY_MULTIVERSION void Start(double resolution_m, const LaneFloats (&origin)
   rays.length_m = __builtin_convertvector(length, LaneDoubles);
   constexpr double kNever = std::numeric_limits<double>::max();
   for (int axis = 0; axis < 3; ++axis) {
-    const LaneFloats direction = difference[axis] / length;
+    const LaneFloats direction = length > 0 ? difference[axis] / length : LaneFloats{};
     const LaneInts forward = direction > 0, backward = direction < 0;
     rays.step[axis] = backward - forward;
     const LaneDoubles slope = __builtin_convertvector(direction, LaneDoubles);
@@ -78,7 +78,10 @@ void StartLanes(const VoxelGrid& grid, const LaneFloats (&origin)[3], const Lane
   Start(grid.resolution_m(), origin, end, rays);
 }
 
-void SkipLanes(RayLanes& rays, const LaneDoubles& until_m) {
+void SkipLanes(RayLanes& rays, const LaneDoubles& wanted_m) {
+  // Where a ray begins on a border, rounding can put its first step a little before its origin.
+  constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+  const LaneDoubles until_m = wanted_m > 0 ? wanted_m : kNowhere + LaneDoubles{};
   double most_steps = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const LaneDoubles steps = (until_m - rays.t_max[axis]) / rays.t_delta[axis];

@@ -18,6 +18,7 @@ void RaySector::Clear() {
 }
 
 void RaySector::Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
+  if (origin == end) return;  // WalkRay visits nothing
   rays_.push_back({origin, end});
   box_.extend(origin).extend(end);
 }

@@ -10,7 +10,7 @@
 namespace clearway {
 
 // A part of a cloud's rays with a window of its own, so that threads can walk different sectors at
-// once, each in memory that stays in its cache. Keeps its memory from one cloud to the next. One
+// once, each in memory of its own. Keeps its memory from one cloud to the next. One
 // thread at a time.
 class RaySector {
  public:

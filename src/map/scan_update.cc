@@ -15,16 +15,6 @@ ScanUpdate::Block& ScanUpdate::BlockFor(BlockKey key) {
   return blocks_[last_];
 }
 
-void ScanUpdate::Merge(const ScanUpdate& other) {
-  for (std::size_t i = 0; i < other.keys_.size(); ++i) {
-    const Block& theirs = other.blocks_[i];
-    Block& mine = BlockFor(other.keys_[i]);
-    mine.free |= theirs.free;
-    mine.hit |= theirs.hit;
-    mine.end |= theirs.end;
-  }
-}
-
 const ScanUpdate::Block* ScanUpdate::Find(BlockKey key) const {
   const auto entry = index_.find(key);
   return entry == index_.end() ? nullptr : &blocks_[entry->second];

@@ -11,14 +11,12 @@
 namespace clearway {
 namespace {
 
-constexpr std::size_t kBytes = 1216;
-
 // Every piece is filled with a value of its own, so that shared memory would show.
 std::vector<void*> TakeAndFill(int count, int value) {
   std::vector<void*> pieces;
   for (int i = 0; i < count; ++i) {
-    pieces.push_back(TakeBlockMemory(kBytes));
-    std::memset(pieces.back(), value, kBytes);
+    pieces.push_back(TakeBlockMemory());
+    std::memset(pieces.back(), value, kBlockMemoryBytes);
   }
   return pieces;
 }
@@ -26,7 +24,7 @@ std::vector<void*> TakeAndFill(int count, int value) {
 bool HoldOnly(const std::vector<void*>& pieces, int value) {
   for (const void* piece : pieces) {
     const auto* bytes = static_cast<const unsigned char*>(piece);
-    for (std::size_t i = 0; i < kBytes; ++i) {
+    for (std::size_t i = 0; i < kBlockMemoryBytes; ++i) {
       if (bytes[i] != value) return false;
     }
   }

@@ -86,5 +86,31 @@ TEST(MarkRays, FromManyOrigins) {
   EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
 }
 
+TEST(MarkRays, FromABorderAlmostAlongAnAxis) {
+  const VoxelGrid grid(0.02);
+  const std::vector<RaySegment> rays{{{0, 0, 0}, {0.001f, -1e-9f, 0}},
+                                     {{0, 0, 0}, {1, -4e-8f, -4e-8f}}};
+  EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+}
+
+TEST(MarkRays, TooShortForADirection) {
+  const VoxelGrid grid(0.1);
+  std::vector<RaySegment> rays{{{0, 0, 0}, {-1, 0, 0}}};
+  for (int i = 0; i < 20; ++i) rays.push_back({{0, 0, 0}, {-1e-30f, i % 2 == 0 ? 0 : -1e-30f, 0}});
+  EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+}
+
+// At the edge of the sector, where two components are of one size, and beyond slopes of a half.
+TEST(MarkRays, ToTheEdgesOfTheSector) {
+  const VoxelGrid grid(kResolution_m);
+  std::vector<RaySegment> rays;
+  for (int u = -100; u <= 100; ++u) {
+    for (int v = -100; v <= 100; ++v) {
+      rays.push_back({{0.02f, 0.01f, 0.03f}, {2.52f, 0.01f + 0.025f * u, 0.03f + 0.025f * v}});
+    }
+  }
+  EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+}
+
 }  // namespace
 }  // namespace clearway

@@ -68,6 +68,29 @@ TEST(RayLanes, StartsAsOneRayDoes) {
   }
 }
 
+TEST(RayLanes, RaysTooShortForADirectionStandStill) {
+  Segments segments;
+  segments.fill({{0, 0, 0}, {-1e-30f, -1e-30f, 0}});
+  segments[1] = {{0, 0, 0}, {0, 0, 0}};
+  RayLanes lanes = Started(VoxelGrid(0.1), segments);
+  SkipLanes(lanes, LaneDoubles{} + 1.0);
+  for (int lane = 0; lane < kRayLanes; ++lane) {
+    EXPECT_EQ(KeyIn(lanes.key, lane), (VoxelKey{0, 0, 0}));
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(lanes.step[axis][lane], 0);
+  }
+}
+
+// On the border of a voxel the first step can lie a little before the origin: half of 0.02 is less
+// in single precision.
+TEST(RayLanes, StaysWhereItIsUntilNowhere) {
+  Segments segments;
+  segments.fill({{0, 0, 0}, {1, -4e-8f, -4e-8f}});
+  RayLanes lanes = Started(VoxelGrid(0.02), segments);
+  ASSERT_LT(lanes.t_max[1][0], -1e-3);
+  SkipLanes(lanes, LaneDoubles{} - 2e-4);
+  EXPECT_EQ(KeyIn(lanes.key, 0), (VoxelKey{0, 0, 0}));
+}
+
 // What WalkRay has made of the ray before `until_m`.
 RayStart WalkedTo(RayStart ray, double until_m) {
   std::int32_t* const index[3] = {&ray.key.x, &ray.key.y, &ray.key.z};

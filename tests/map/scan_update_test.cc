@@ -25,17 +25,5 @@ TEST(ScanUpdate, MarksInTheRightBlock) {
   EXPECT_EQ(dut.Find({1, 0, 0})->end.Count(), 2);
 }
 
-TEST(ScanUpdate, MergeIsTheUnion) {
-  ScanUpdate dut, other;
-  dut.MarkFree({0, 0, 0});
-  other.MarkFree({0, 0, 0});
-  other.MarkHit({1, 0, 0});
-  other.MarkFree({64, 0, 0});
-  dut.Merge(other);
-  EXPECT_EQ(dut.keys().size(), 2u);
-  EXPECT_EQ(dut.Find({0, 0, 0})->free.Count(), 1);
-  EXPECT_EQ(dut.Find({0, 0, 0})->hit.Count(), 1);
-}
-
 }  // namespace
 }  // namespace clearway

@@ -39,7 +39,8 @@ class BlockTree {
   void Put(BlockKey key, const VoxelBlock& block);
 
   // Replaces many blocks, no key twice: fills `after` for keys[i] and returns whether it is to be
-  // stored. Called on the pool's threads in any order; `before` is empty where there is no block.
+  // stored. Called on the pool's threads in any order; `before` is empty where there is no block,
+  // and `after` may hold anything.
   using MakeBlock =
       std::function<bool(int worker, std::size_t i, const VoxelBlock& before, VoxelBlock& after)>;
   void PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const MakeBlock& make);

@@ -10,8 +10,7 @@
 namespace clearway {
 
 // The set of voxels that a scan saw free, hit, or ended in, as bit masks per block: each voxel is
-// updated at most once per scan (OctoMap's computeUpdate). Not thread-safe; threads fill one each
-// and Merge.
+// updated at most once per scan (OctoMap's computeUpdate). Not thread-safe.
 class ScanUpdate {
  public:
   struct Block {
@@ -29,7 +28,6 @@ class ScanUpdate {
   }
   void MarkEnd(VoxelKey key) { BlockFor(BlockOf(key)).end.Set(IndexInBlock(key)); }
 
-  void Merge(const ScanUpdate& other);
   bool Empty() const { return blocks_.empty(); }
   const Block* Find(BlockKey key) const;
   // The blocks in which something is marked, each once, in the order in which they were marked

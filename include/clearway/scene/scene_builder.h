@@ -42,7 +42,8 @@ class SceneBuilder {
   ScenePtr Publish();
 
   // A known static map; it must have the scene's resolution. Voxels it has observed replace those
-  // of the scene.
+  // of the scene. With SceneParams::keep_distance_m, those far away are forgotten with the next
+  // frame.
   absl::Status LoadPrior(const VoxelMap& prior_W);
   // Makes the static map's voxels in the box unknown again.
   void ClearRegion(const Aabb& box_W);

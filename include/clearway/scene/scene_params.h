@@ -38,7 +38,9 @@ struct SceneParams {
 
   // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
   // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of
-  // any length. 0: nothing is forgotten.
+  // any length. Parts of a prior map are forgotten likewise, and a frame from a wrong place forgets
+  // all that is far from there. Less than the range of the rays makes blocks only to forget them.
+  // 0: nothing is forgotten.
   double keep_distance_m = 0;
 
   Aabb bounds_W{Eigen::Vector3d::Constant(-1e5), Eigen::Vector3d::Constant(1e5)};
