@@ -56,6 +56,13 @@ std::string FieldThatPlaces(const Frame& frame, ObjectId id) {
   return "labels";
 }
 
+void ForgetFarBlocks(const Eigen::Vector3d& sensor_W, const SceneParams& params,
+                     VoxelMap& static_map_W) {
+  if (params.keep_distance_m == 0) return;
+  static_map_W.ForgetBlocksOutside(
+      {sensor_W.array() - params.keep_distance_m, sensor_W.array() + params.keep_distance_m});
+}
+
 absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
                           const Frame& frame, const FrameLimits& limits) {
   if (objects.size() > limits.max_objects) {
@@ -97,10 +104,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   }
   static_map_W.Update(caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays),
                       *pool_);  // II-B, II-C
-  if (const double keep_m = scene_.params.keep_distance_m; keep_m > 0) {
-    const Eigen::Vector3d& sensor_W = frame.T_W_S.translation;
-    static_map_W.ForgetBlocksOutside({sensor_W.array() - keep_m, sensor_W.array() + keep_m});
-  }
+  ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
   for (const auto& [id, clue] : clues) {  // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =

@@ -58,8 +58,8 @@ absl::Status Validate(const SceneParams& params) {
         Validate(params.occupancy), CheckDuration("horizon_s", params.horizon),
         CheckDuration("object_lifetime_s", params.object_lifetime),
         CheckDuration("history_s", params.history), CheckRestDistance(params.rest_distance_m),
-        CheckKeepDistance(params.keep_distance_m),
-        CheckBox("bounds", params.bounds_W), CheckBoxes("keep_out", params.keep_out_W),
+        CheckKeepDistance(params.keep_distance_m), CheckBox("bounds", params.bounds_W),
+        CheckBoxes("keep_out", params.keep_out_W),
         CheckBoxes("self_filter", params.self_filter_S)}) {
     if (!status.ok()) return status;
   }

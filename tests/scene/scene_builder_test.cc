@@ -262,32 +262,5 @@ TEST_F(SceneBuilderTest, ResetForgetsAllButGoesOnCounting) {
   EXPECT_TRUE(dut.Apply(FrameAt(1)).ok()) << "an earlier stamp is fine again";
 }
 
-// A sensor that drives along x past walls; with a rolling window the map stays as large as it was.
-TEST_F(SceneBuilderTest, ARollingWindowForgetsWhatIsFarFromTheSensor) {
-  SceneParams params;
-  params.keep_distance_m = 10;
-  SceneBuilder dut = Builder(params), forgets_nothing = Builder();
-  std::size_t most_blocks = 0;
-  for (int k = 0; k < 100; ++k) {
-    Frame frame = FrameAt(k);
-    frame.T_W_S.translation = Eigen::Vector3d(k, 0, 0);
-    for (int i = -20; i <= 20; ++i) AddPoint(frame, 0, {0.1 * i, 3, 0.5});
-    ASSERT_TRUE(dut.Apply(frame).ok());
-    ASSERT_TRUE(forgets_nothing.Apply(frame).ok());
-    const std::size_t blocks = dut.Publish()->static_map_W.blocks().size();
-    if (k == 20) most_blocks = blocks + 5;
-    if (k > 20) {
-      EXPECT_LE(blocks, most_blocks);
-    }
-  }
-  const ScenePtr all = forgets_nothing.Publish(), kept = dut.Publish();
-  EXPECT_GT(all->static_map_W.blocks().size(), 3 * most_blocks);
-  VoxelMap expected = all->static_map_W;
-  expected.ForgetBlocksOutside({{89, -10, -10}, {109, 10, 10}});
-  EXPECT_TRUE(kept->static_map_W == expected);
-  EXPECT_EQ(StaticState(dut, {5, 3, 0.5}), VoxelState::kUnknown);
-  EXPECT_EQ(StaticState(dut, {95, 3, 0.5}), VoxelState::kOccupied);
-}
-
 }  // namespace
 }  // namespace clearway

@@ -17,6 +17,7 @@ std::vector<ScenePtr> RandomVersions(unsigned seed, int count) {
   ThreadPool pool(1);
   SceneParams params;
   params.clear_objects_by_rays = seed % 2 == 0;
+  params.keep_distance_m = seed == 3 ? 3 : 0;  // blocks are removed, too
   SceneBuilder builder(params, {}, pool);
   RandomFrames frames(seed);
   std::vector<ScenePtr> versions{builder.Publish()};
