@@ -12,12 +12,12 @@ constexpr double kRounding_m = 1e-9;
 
 }  // namespace
 
-PreparedMesh::PreparedMesh(std::shared_ptr<const Mesh> mesh)
+PreparedMesh::PreparedMesh(std::shared_ptr<const Mesh> mesh, const MeshBudget& budget)
     : box_G_(BoundingBox(TriangleMesh{mesh})),
       extreme_(mesh->vertices),
       tree_(*mesh),
       winding_(mesh, tree_),
-      grid_(box_G_, tree_, winding_) {}
+      grid_(box_G_, tree_, winding_, budget) {}
 
 bool PreparedMesh::Contains(const Eigen::Vector3d& p_G) const {
   if (!box_G_.Contains(p_G)) return false;

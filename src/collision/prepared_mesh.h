@@ -7,6 +7,7 @@
 #include "clearway/geometry/shape.h"
 #include "collision/distance_grid.h"
 #include "collision/extreme_points.h"
+#include "collision/mesh_budget.h"
 #include "collision/oriented_box.h"
 #include "collision/triangle_tree.h"
 #include "collision/winding_tree.h"
@@ -21,7 +22,7 @@ namespace clearway {
 // up_to_m beyond that.
 class PreparedMesh {
  public:
-  explicit PreparedMesh(std::shared_ptr<const Mesh> mesh);
+  explicit PreparedMesh(std::shared_ptr<const Mesh> mesh, const MeshBudget& budget = {});
   PreparedMesh(const PreparedMesh&) = delete;
   PreparedMesh& operator=(const PreparedMesh&) = delete;
 
