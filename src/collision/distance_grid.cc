@@ -13,11 +13,6 @@ namespace {
 constexpr int kMostAlong = 128;  // cells along an axis
 constexpr double kRounding_m = 1e-9;
 
-// Few triangles need no grid as fine as many do.
-double MostCells(std::size_t triangles, const MeshBudget& budget) {
-  return std::clamp(512 + 64.0 * static_cast<double>(triangles), 8.0, std::max(8.0, budget.cells));
-}
-
 // On which side of a mesh a point is, and how far that is so all round it.
 struct Side {
   bool inside;
@@ -82,17 +77,18 @@ float Above(double value) { return static_cast<float>(value * (1 + 1e-7)); }
 
 DistanceGrid::DistanceGrid(const Aabb& mesh_box_G, const TriangleTree& tree,
                            const WindingTree& winding, const MeshBudget& budget) {
-  Lay(mesh_box_G, MostCells(tree.triangles().size(), budget));
+  Lay(mesh_box_G, std::min(budget.cells, WantedCells(tree.triangles().size())));
   FindSides(Distances(tree, budget.visits), mesh_box_G, winding, budget.angles);
 }
 
 // Cubic cells, the smallest of which there are not too many, and half of one or more round the box.
 void DistanceGrid::Lay(const Aabb& mesh_box_G, double most_cells) {
+  constexpr double kFewest = 8;  // the corners of the box
   const Eigen::Vector3d mesh_size_m = mesh_box_G.Size();
   constexpr double kSmallest_m = 1e-6;
   cell_m_ = std::max(mesh_size_m.maxCoeff() / (kMostAlong - 2), kSmallest_m);
   const auto along = [&]() -> Eigen::Array3d { return (mesh_size_m / cell_m_).array().ceil() + 1; };
-  while (along().prod() > most_cells) cell_m_ *= 1.02;
+  while (along().prod() > std::max(kFewest, most_cells)) cell_m_ *= 1.02;
   per_cell_ = 1 / cell_m_;
   size_ = along().cast<int>();
   const Eigen::Vector3d half_m = 0.5 * cell_m_ * size_.cast<double>();
