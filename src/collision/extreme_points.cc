@@ -12,7 +12,8 @@ namespace clearway {
 namespace {
 
 constexpr int kMostLevels = 5;
-constexpr std::size_t kMostLooks = 200;       // at a point
+constexpr std::size_t kMostLooksAtEach = 200;
+constexpr std::size_t kMostLooks = 30'000'000;
 constexpr std::size_t kMostCopies = 20;       // of a point, on average
 constexpr std::size_t kMostLeft = 4'000'000;  // in all squares together
 constexpr std::size_t kMostUnsorted = 20'000;
@@ -66,7 +67,7 @@ ExtremePoints::ExtremePoints(std::vector<Eigen::Vector3d> points_G)
 // Whether few enough points are left in the squares, which is always so if they are not cut.
 bool ExtremePoints::Sort(int levels) {
   levels_ = levels;
-  left_to_look_at_ = kMostLooks * points_G_.size();
+  left_to_look_at_ = std::min(kMostLooks, kMostLooksAtEach * points_G_.size());
   by_square_.assign(std::size_t{6} << 2 * levels_, {});
   Indices all(points_G_.size());
   std::iota(all.begin(), all.end(), 0u);

@@ -8,9 +8,9 @@ namespace {
 
 // For the whole robot: a few seconds' worth of each.
 constexpr double kCells = 1 << 20;
-constexpr double kVisits = 1e8;
-constexpr double kAngles = 8e7;
-constexpr double kHullWork = 2e8;  // squares of numbers of corners, as Qhull takes for rims
+constexpr double kVisits = 7e7;
+constexpr double kAngles = 5e7;
+constexpr double kHullWork = 1e8;  // squares of numbers of corners, as Qhull takes for rims
 
 const Mesh* MeshOf(const Shape& shape) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return mesh->mesh.get();

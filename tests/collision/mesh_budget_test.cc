@@ -42,8 +42,8 @@ TEST(MeshBudgetTest, ManyMeshesShareWhatARobotMayHave) {
     sum.angles += dut.angles;
   }
   EXPECT_NEAR(sum.cells, 1 << 20, 1);
-  EXPECT_NEAR(static_cast<double>(sum.visits), 1e8, 1000);
-  EXPECT_NEAR(static_cast<double>(sum.angles), 8e7, 1000);
+  EXPECT_NEAR(static_cast<double>(sum.visits), 7e7, 1000);
+  EXPECT_NEAR(static_cast<double>(sum.angles), 5e7, 1000);
 }
 
 TEST(MeshBudgetTest, SmallMeshesGetSmallerParts) {
@@ -59,8 +59,7 @@ TEST(MeshBudgetTest, HullsOfManyCornersAreNotAllPrepared) {
   rim.vertices.resize(9000);
   rim.triangles = {{0, 1, 2}};
   const Shape hull = ConvexPolytope{std::make_shared<const Mesh>(rim)};
-  BudgetShares shares(Repeated(hull, 3));
-  EXPECT_GE(shares.Next(hull).hull_corners, 9000u);
+  BudgetShares shares(Repeated(hull, 2));
   EXPECT_GE(shares.Next(hull).hull_corners, 9000u);
   EXPECT_EQ(shares.Next(hull).hull_corners, 0u);
 }
