@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "wire/status.h"
@@ -10,6 +13,20 @@ namespace clearway {
 namespace {
 
 constexpr std::size_t kMaxCheckers = 16;
+
+std::size_t TrianglesOf(const Robot& robot) {
+  std::size_t count = 0;
+  for (const Link& link : robot.links) {
+    for (const LinkShape& part : link.shapes) {
+      if (const auto* hull = std::get_if<ConvexPolytope>(&part.shape)) {
+        count += hull->mesh->triangles.size();
+      } else if (const auto* mesh = std::get_if<TriangleMesh>(&part.shape)) {
+        count += mesh->mesh->triangles.size();
+      }
+    }
+  }
+  return count;
+}
 
 // Of the boxes around its shapes.
 double VolumeOf_m3(const Robot& robot) {
@@ -22,9 +39,10 @@ double VolumeOf_m3(const Robot& robot) {
 
 }  // namespace
 
-Robots::Robots(const ServerLimits& limits, double resolution_m)
+Robots::Robots(const ServerLimits& limits, double resolution_m, std::size_t max_triangles)
     : max_robots_(limits.max_robots),
       max_voxels_(limits.max_voxels_per_robot),
+      max_triangles_(max_triangles),
       voxel_m3_(std::pow(resolution_m, 3)) {}
 
 absl::StatusOr<std::string> Robots::Register(Robot robot) {
@@ -40,13 +58,28 @@ absl::StatusOr<std::string> Robots::Register(Robot robot) {
   const std::string id = RobotId(robot);
   if (Find(id).ok()) return id;
   // Prepared without the lock, as it may take long; two calls may both do it, which is harmless.
+  const std::size_t triangles = TrianglesOf(robot);
   std::list<KnownRobot> entry;
-  entry.push_back({id, std::make_shared<const PreparedRobot>(std::move(robot))});
+  entry.push_back({id, triangles, std::make_shared<const PreparedRobot>(std::move(robot))});
+  std::list<KnownRobot> dropped;  // freed after the lock
   std::lock_guard lock(mutex_);
-  robots_.remove_if([&](const KnownRobot& known) { return known.id == id; });
+  const auto known = std::find_if(robots_.begin(), robots_.end(),
+                                  [&](const KnownRobot& other) { return other.id == id; });
+  if (known != robots_.end()) dropped.splice(dropped.begin(), robots_, known);
   robots_.splice(robots_.begin(), entry);
-  if (robots_.size() > max_robots_) robots_.pop_back();
+  Forget(dropped);
   return id;
+}
+
+// Moves those used longest ago to `dropped` as long as there are too many, or of too many
+// triangles; the one used last stays.
+void Robots::Forget(std::list<KnownRobot>& dropped) {
+  std::size_t triangles = 0;
+  for (const KnownRobot& known : robots_) triangles += known.triangles;
+  while (robots_.size() > 1 && (robots_.size() > max_robots_ || triangles > max_triangles_)) {
+    triangles -= robots_.back().triangles;
+    dropped.splice(dropped.begin(), robots_, std::prev(robots_.end()));
+  }
 }
 
 absl::StatusOr<std::shared_ptr<const PreparedRobot>> Robots::Find(const std::string& id) {

@@ -1,6 +1,8 @@
 // The robots that clients have registered, and their checkers.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -12,12 +14,13 @@
 
 namespace clearway {
 
-// Remembers robots by the hash of their content, and the checkers made last. Both are bounded: the
-// one used longest ago is forgotten. Any thread may call any method.
+// Remembers robots by the hash of their content, and the checkers made last. Both are bounded,
+// robots also by their triangles: the one used longest ago is forgotten. Any thread may call any
+// method.
 class Robots {
  public:
   // For scenes of the resolution.
-  Robots(const ServerLimits& limits, double resolution_m);
+  Robots(const ServerLimits& limits, double resolution_m, std::size_t max_triangles = 2'000'000);
 
   // INVALID_ARGUMENT for what Validate(robot) refuses, RESOURCE_EXHAUSTED for a robot of more than
   // max_voxels_per_robot: what one state costs grows with them.
@@ -32,6 +35,7 @@ class Robots {
  private:
   struct KnownRobot {
     std::string id;
+    std::size_t triangles;
     std::shared_ptr<const PreparedRobot> robot;
   };
   struct KnownChecker {
@@ -39,10 +43,12 @@ class Robots {
     ScenePtr scene;  // held, so that its address stays its own
     std::shared_ptr<const SceneChecker> checker;
   };
+  void Forget(std::list<KnownRobot>& dropped);
   std::shared_ptr<const SceneChecker> FindChecker(const std::string& id, const ScenePtr& scene);
 
   const std::size_t max_robots_;
   const std::uint64_t max_voxels_;
+  const std::size_t max_triangles_;  // of all known robots together
   const double voxel_m3_;
   mutable std::mutex mutex_;
   std::list<KnownRobot> robots_;      // used last first

@@ -15,7 +15,8 @@ class CubeContact {
  public:
   CubeContact(const PlacedShape& shape, double margin_m);
 
-  // kNo and kYes are certain, with 1e-9 m to spare; kOpen is not known.
+  // kNo is certain with 1e-9 m to spare. So is kYes if the shape is rounded or has a margin; if
+  // not, it is up to rounding. kOpen is not known.
   enum class Answer { kNo, kYes, kOpen };
   Answer Of(const Eigen::Vector3d& center_F, double half_edge_m) const {
     if (line_) return OfRounded(FromLine(center_F), half_edge_m);

@@ -1,5 +1,6 @@
 #include "collision/distance_grid.h"
 
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -9,8 +10,8 @@
 namespace clearway {
 namespace {
 
-constexpr double kMostCells = 1 << 15;
 constexpr int kMostAlong = 128;  // cells along an axis
+constexpr double kRounding_m = 1e-9;
 
 // On which side of a mesh a point is, and how far that is so all round it.
 struct Side {
@@ -29,9 +30,11 @@ class SideFinder {
   }
 
   bool closed() const { return boundary_.empty(); }
+  std::uint64_t angles() const { return angles_; }  // looked at so far
 
-  Side At(const Eigen::Vector3d& p_G, double to_surface_m) const {
-    const double winding = std::abs(winding_.At(p_G));
+  // Of a point that is to_surface_m from the surface, or farther.
+  Side At(const Eigen::Vector3d& p_G, double to_surface_m) {
+    const double winding = std::abs(winding_.At(p_G, angles_));
     const bool in_box = box_G_.Contains(p_G);
     if (closed()) return {in_box && winding > 0.5, to_surface_m};
     const double steady_m = std::min(to_surface_m, SteadyRadius(p_G, to_surface_m, winding));
@@ -45,11 +48,12 @@ class SideFinder {
  private:
   // The largest radius t * r in which L t r / (4 pi (r - t r)^2) is at most what the winding number
   // differs from a half.
-  double SteadyRadius(const Eigen::Vector3d& p_G, double to_surface_m, double winding) const {
+  double SteadyRadius(const Eigen::Vector3d& p_G, double to_surface_m, double winding) {
     constexpr std::size_t kFew = 256;
     double r_m = to_surface_m;
     if (boundary_.size() <= kFew) {
       r_m = std::numeric_limits<double>::infinity();
+      angles_ += boundary_.size();
       for (const auto& [from_G, to_G] : boundary_) {
         r_m = std::min(r_m, PointSegmentDistance(p_G, from_G, to_G));
       }
@@ -62,26 +66,29 @@ class SideFinder {
   const WindingTree& winding_;
   std::vector<WindingTree::Edge> boundary_;
   double length_m_ = 0;
+  std::uint64_t angles_ = 0;
 };
 
-// Rounded to a float that is not larger.
+// Rounded to a float that is not larger, or not smaller.
 float Below(double value) { return static_cast<float>(value * (1 - 1e-7)); }
+float Above(double value) { return static_cast<float>(value * (1 + 1e-7)); }
 
 }  // namespace
 
 DistanceGrid::DistanceGrid(const Aabb& mesh_box_G, const TriangleTree& tree,
-                           const WindingTree& winding) {
-  Lay(mesh_box_G);
-  FindSides(Distances(tree), mesh_box_G, winding);
+                           const WindingTree& winding, const MeshBudget& budget) {
+  Lay(mesh_box_G, std::min(budget.cells, WantedCells(tree.triangles().size())));
+  FindSides(Distances(tree, budget.visits), mesh_box_G, winding, budget.angles);
 }
 
 // Cubic cells, the smallest of which there are not too many, and half of one or more round the box.
-void DistanceGrid::Lay(const Aabb& mesh_box_G) {
+void DistanceGrid::Lay(const Aabb& mesh_box_G, double most_cells) {
+  constexpr double kFewest = 8;  // the corners of the box
   const Eigen::Vector3d mesh_size_m = mesh_box_G.Size();
   constexpr double kSmallest_m = 1e-6;
   cell_m_ = std::max(mesh_size_m.maxCoeff() / (kMostAlong - 2), kSmallest_m);
   const auto along = [&]() -> Eigen::Array3d { return (mesh_size_m / cell_m_).array().ceil() + 1; };
-  while (along().prod() > kMostCells) cell_m_ *= 1.02;
+  while (along().prod() > std::max(kFewest, most_cells)) cell_m_ *= 1.02;
   per_cell_ = 1 / cell_m_;
   size_ = along().cast<int>();
   const Eigen::Vector3d half_m = 0.5 * cell_m_ * size_.cast<double>();
@@ -94,19 +101,26 @@ Eigen::Vector3d DistanceGrid::CenterOf(std::size_t cell) const {
                   static_cast<int>(row / size_.y()));
 }
 
-// What is nearest to one cell is near to the next.
-std::vector<double> DistanceGrid::Distances(const TriangleTree& tree) const {
-  std::vector<double> distances_m(static_cast<std::size_t>(size_.prod()));
+// Lower bounds, and upper ones where they differ. What is nearest to one cell is near to the next;
+// what one cell has left of its share of the visits, the next ones have.
+std::vector<double> DistanceGrid::Distances(const TriangleTree& tree, std::uint64_t visits) {
+  const auto count = static_cast<std::size_t>(size_.prod());
+  std::vector<double> near_m(count), far_m(count);
   std::uint32_t triangle = 0;
-  for (std::size_t cell = 0; cell < distances_m.size(); ++cell) {
+  for (std::size_t cell = 0; cell < count; ++cell) {
     const Eigen::Vector3d center_G = CenterOf(cell);
     const auto& [a, b, c] = tree.triangles()[triangle];
-    const TriangleTree::Nearest nearest =
-        tree.NearestTo(center_G, PointTriangleDistance(center_G, a, b, c));
-    distances_m[cell] = nearest.distance_m;
-    triangle = nearest.triangle;
+    const double seed_m = PointTriangleDistance(center_G, a, b, c);
+    const TriangleTree::Nearest found =
+        tree.NearestTo(center_G, seed_m + kRounding_m, visits / (count - cell));
+    visits -= std::min(visits, found.visits);
+    if (found.distance_m <= seed_m) triangle = found.triangle;
+    far_m[cell] = std::min(found.distance_m, seed_m);
+    near_m[cell] = std::min(found.at_least_m, far_m[cell]);
   }
-  return distances_m;
+  if (near_m != far_m)
+    std::transform(far_m.begin(), far_m.end(), std::back_inserter(far_m_), Above);
+  return near_m;
 }
 
 template <class Visit>
@@ -124,11 +138,11 @@ void DistanceGrid::ForEachWithin(const Eigen::Vector3d& p_G, double radius_m, Vi
 
 // From the cells farthest from the surface on, each settles those round it.
 void DistanceGrid::FindSides(const std::vector<double>& distances_m, const Aabb& mesh_box_G,
-                             const WindingTree& winding) {
-  const SideFinder sides(mesh_box_G, winding);
+                             const WindingTree& winding, std::uint64_t angles) {
+  SideFinder sides(mesh_box_G, winding);
   const std::size_t count = distances_m.size();
-  signed_m_.resize(count);
-  if (!sides.closed()) same_m_.resize(count);
+  signed_m_.assign(distances_m.begin(), distances_m.end());
+  same_m_.assign(count, 0);
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -136,21 +150,24 @@ void DistanceGrid::FindSides(const std::vector<double>& distances_m, const Aabb&
   std::vector<bool> settled(count, false);
   const auto settle = [&](std::size_t cell, bool inside, double same_m) {
     settled[cell] = true;
-    signed_m_[cell] = static_cast<float>(inside ? -distances_m[cell] : distances_m[cell]);
-    if (!sides.closed()) same_m_[cell] = Below(same_m);
+    if (inside) signed_m_[cell] = -signed_m_[cell];
+    same_m_[cell] = Below(sides.closed() ? distances_m[cell] : same_m);
   };
   for (const std::size_t cell : order) {
     if (settled[cell]) continue;
+    if (distances_m[cell] <= kRounding_m) break;
+    if (sides.angles() >= angles) return;
     const Eigen::Vector3d center_G = CenterOf(cell);
     const auto [inside, same_m] = sides.At(center_G, distances_m[cell]);
     settle(cell, inside, same_m);
     ForEachWithin(center_G, same_m, [&, inside = inside, same_m = same_m](std::size_t other) {
       if (settled[other]) return;
       const double left_m = same_m - (CenterOf(other) - center_G).norm();
-      const double wanted_m = sides.closed() ? 1e-9 : 0.25 * distances_m[other];
+      const double wanted_m = sides.closed() ? kRounding_m : 0.25 * distances_m[other];
       if (left_m > wanted_m) settle(other, inside, std::min(left_m, distances_m[other]));
     });
   }
+  if (sides.closed()) same_m_ = {};
 }
 
 }  // namespace clearway

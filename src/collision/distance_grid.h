@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "clearway/geometry/aabb.h"
+#include "collision/mesh_budget.h"
 #include "collision/triangle_tree.h"
 #include "collision/winding_tree.h"
 
@@ -16,16 +18,20 @@ namespace clearway {
 // The signed distance from a mesh's surface at the centres of the cells of a grid over the mesh's
 // box, in the mesh's frame G, and from these what is certain of any other point. Immutable; any
 // number of threads may read it.
+//
+// There are more cells the more triangles there are. Where the budget does not reach, bounds of the
+// distance are stored, and sides are not known.
 class DistanceGrid {
  public:
-  DistanceGrid(const Aabb& mesh_box_G, const TriangleTree& tree, const WindingTree& winding);
+  DistanceGrid(const Aabb& mesh_box_G, const TriangleTree& tree, const WindingTree& winding,
+               const MeshBudget& budget);
 
   // What is certain about a point. All bounds hold in spite of the stored numbers' rounding.
   struct Surroundings {
     double near_m;  // the surface is at least this far, or the number is not positive
     double far_m;   // and at most this far
     double same_m;  // what is nearer than this is inside as the point is, or else outside
-    bool inside;    // certain if same_m > 0
+    bool inside;    // certain if same_m > 1e-9
   };
   Surroundings At(const Eigen::Vector3d& p_G) const {
     const Eigen::Vector3d in_box_G = p_G.cwiseMax(box_G_.min).cwiseMin(box_G_.max);
@@ -39,9 +45,10 @@ class DistanceGrid {
     const double off_m = (in_box_G - CenterOf(x, y, z)).norm();
     const double squared_beyond = (p_G - in_box_G).squaredNorm();
     const double same_m = same_m_.empty() ? distance_m : same_m_[cell];
-    const Surroundings around{distance_m * (1 - kRounding) - off_m,
-                              distance_m * (1 + kRounding) + off_m,
-                              same_m * (1 - kRounding) - off_m, stored_m < 0};
+    const Surroundings around{
+        distance_m * (1 - kRounding) - off_m,
+        (far_m_.empty() ? distance_m : far_m_[cell]) * (1 + kRounding) + off_m,
+        same_m * (1 - kRounding) - off_m, stored_m < 0};
     return squared_beyond == 0 ? around : Beyond(squared_beyond, around);
   }
 
@@ -65,19 +72,20 @@ class DistanceGrid {
     return {near_m, far_m, std::max(beyond_m, around_box_m), false};
   }
 
-  void Lay(const Aabb& mesh_box_G);
+  void Lay(const Aabb& mesh_box_G, double most_cells);
   Eigen::Vector3d CenterOf(std::size_t cell) const;
-  std::vector<double> Distances(const TriangleTree& tree) const;
+  std::vector<double> Distances(const TriangleTree& tree, std::uint64_t visits);
   void FindSides(const std::vector<double>& distances_m, const Aabb& mesh_box_G,
-                 const WindingTree& winding);
+                 const WindingTree& winding, std::uint64_t angles);
   template <class Visit>
   void ForEachWithin(const Eigen::Vector3d& p_G, double radius_m, Visit&& visit) const;
 
   Aabb box_G_;
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
   double cell_m_ = 0, per_cell_ = 0;
-  std::vector<float> signed_m_;  // negative inside
-  std::vector<float> same_m_;    // of meshes that are not closed; of others, the distance
+  std::vector<float> signed_m_;  // at most the distance; negative inside
+  std::vector<float> far_m_;     // at least the distance; empty if that is known for all cells
+  std::vector<float> same_m_;    // empty if it is the distance: closed meshes, sides all known
 };
 
 }  // namespace clearway

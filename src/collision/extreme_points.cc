@@ -6,11 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace clearway {
 namespace {
 
 constexpr int kMostLevels = 5;
+constexpr std::size_t kMostLooksAtEach = 200;
+constexpr std::size_t kMostLooks = 30'000'000;
+constexpr std::size_t kMostCopies = 20;       // of a point, on average
+constexpr std::size_t kMostLeft = 4'000'000;  // in all squares together
+constexpr std::size_t kMostUnsorted = 20'000;
 
 Eigen::Vector3d Direction(int axis, double sign, double u, double v) {
   Eigen::Vector3d direction;
@@ -20,42 +26,80 @@ Eigen::Vector3d Direction(int axis, double sign, double u, double v) {
   return direction;
 }
 
-}  // namespace
-
-ExtremePoints::ExtremePoints(const std::vector<Eigen::Vector3d>& points_G) : points_G_(points_G) {
-  // About as many squares as points.
-  levels_ = std::min(kMostLevels, static_cast<int>(std::bit_width(points_G.size() / 6)) / 2);
-  Indices all(points_G.size());
-  std::iota(all.begin(), all.end(), 0u);
-  std::vector<Indices> by_square(std::size_t{6} << 2 * levels_);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) Split({axis, sign, -1, -1, 2}, all, levels_, by_square);
-  }
-  for (const Indices& candidates : by_square) {
-    first_.push_back(static_cast<std::uint32_t>(candidates_G_.size()));
-    for (const std::uint32_t i : candidates) candidates_G_.push_back(points_G[i]);
-  }
-  first_.push_back(static_cast<std::uint32_t>(candidates_G_.size()));
+std::vector<Eigen::Vector3d> Distinct(std::vector<Eigen::Vector3d> points) {
+  std::sort(points.begin(), points.end(), [](const Eigen::Vector3d& l, const Eigen::Vector3d& r) {
+    return std::lexicographical_compare(l.begin(), l.end(), r.begin(), r.end());
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
 }
 
-void ExtremePoints::Split(const Square& square, const Indices& candidates, int level,
-                          std::vector<Indices>& by_square) const {
+std::vector<Eigen::Vector3d> CornersOfBoxAround(const std::vector<Eigen::Vector3d>& points) {
+  Aabb box;
+  for (const Eigen::Vector3d& point : points) box.Extend(point);
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1 ? box.max : box.min).x(), (i & 2 ? box.max : box.min).y(),
+                         (i & 4 ? box.max : box.min).z());
+  }
+  return corners;
+}
+
+}  // namespace
+
+ExtremePoints::ExtremePoints(std::vector<Eigen::Vector3d> points_G)
+    : points_G_(Distinct(std::move(points_G))) {
+  // About as many squares as points.
+  const auto levels = static_cast<int>(std::bit_width(points_G_.size() / 6)) / 2;
+  if (!Sort(std::min(kMostLevels, levels))) {
+    if (points_G_.size() > kMostUnsorted) points_G_ = CornersOfBoxAround(points_G_);
+    Sort(0);
+  }
+  for (const Indices& candidates : by_square_) {
+    first_.push_back(static_cast<std::uint32_t>(candidates_G_.size()));
+    for (const std::uint32_t i : candidates) candidates_G_.push_back(points_G_[i]);
+  }
+  first_.push_back(static_cast<std::uint32_t>(candidates_G_.size()));
+  points_G_ = {};
+  by_square_ = {};
+}
+
+// Whether few enough points are left in the squares, which is always so if they are not cut.
+bool ExtremePoints::Sort(int levels) {
+  levels_ = levels;
+  left_to_look_at_ = std::min(kMostLooks, kMostLooksAtEach * points_G_.size());
+  by_square_.assign(std::size_t{6} << 2 * levels_, {});
+  Indices all(points_G_.size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) Split({axis, sign, -1, -1, 2}, all, levels_);
+  }
+  if (levels == 0) return true;
+  std::size_t left = 0;
+  for (const Indices& candidates : by_square_) left += candidates.size();
+  return left_to_look_at_ > 0 && left <= std::min(kMostLeft, kMostCopies * points_G_.size());
+}
+
+void ExtremePoints::Split(const Square& square, const Indices& candidates, int level) {
+  if (left_to_look_at_ < candidates.size()) left_to_look_at_ = 0;
+  if (left_to_look_at_ == 0) return;
+  left_to_look_at_ -= candidates.size();
   Indices left = MayBeFarthest(square, candidates);
   const double half = 0.5 * square.edge;
   if (level == 0) {
     const auto middle = Direction(square.axis, square.sign, square.u + half, square.v + half);
-    by_square[SquareOf(middle)] = std::move(left);
+    by_square_[SquareOf(middle)] = std::move(left);
     return;
   }
   for (const double u : {square.u, square.u + half}) {
     for (const double v : {square.v, square.v + half}) {
-      Split({square.axis, square.sign, u, v, half}, left, level - 1, by_square);
+      Split({square.axis, square.sign, u, v, half}, left, level - 1);
     }
   }
 }
 
-// Which of two points is farther is linear in the direction: one that is farther at the square's
-// four corners is so all over it.
+// Which of two points is farther is linear in the direction: one that is at least as far at the
+// square's four corners is so all over it. The rivals themselves stay.
 ExtremePoints::Indices ExtremePoints::MayBeFarthest(const Square& square,
                                                     const Indices& candidates) const {
   std::array<Eigen::Vector3d, 5> looks;  // the corners, and the middle
@@ -74,14 +118,14 @@ ExtremePoints::Indices ExtremePoints::MayBeFarthest(const Square& square,
   const auto beaten_by = [&](std::uint32_t point, std::uint32_t rival) {
     const Eigen::Vector3d ahead = points_G_[rival] - points_G_[point];
     return std::all_of(looks.begin(), looks.end(),
-                       [&](const Eigen::Vector3d& look) { return look.dot(ahead) > 0; });
+                       [&](const Eigen::Vector3d& look) { return look.dot(ahead) >= 0; });
   };
   Indices left;
   for (const std::uint32_t point : candidates) {
-    if (std::none_of(rivals.begin(), rivals.end(),
-                     [&](std::uint32_t rival) { return beaten_by(point, rival); })) {
-      left.push_back(point);
-    }
+    const bool stays = std::find(rivals.begin(), rivals.end(), point) != rivals.end() ||
+                       std::none_of(rivals.begin(), rivals.end(),
+                                    [&](std::uint32_t rival) { return beaten_by(point, rival); });
+    if (stays) left.push_back(point);
   }
   return left;
 }

@@ -11,11 +11,16 @@ namespace clearway {
 
 // Points in a frame G, of which those are known that may be the farthest in each of many narrow
 // bundles of directions. Immutable; any number of threads may read it.
+//
+// Making it takes a time that grows with the number of points, whatever they are. Of those that
+// cannot be sorted by direction, as all on a line, up to 20,000 are looked at one by one later, and
+// more are replaced by the corners of the box around them in G.
 class ExtremePoints {
  public:
-  explicit ExtremePoints(const std::vector<Eigen::Vector3d>& points_G);
+  explicit ExtremePoints(std::vector<Eigen::Vector3d> points_G);
 
-  // The smallest box around the points, turned into a frame F. Its origin is G's.
+  // The smallest box around the points, or else around those corners, turned into a frame F. Its
+  // origin is G's.
   Aabb BoxTurned(const Eigen::Matrix3d& R_F_G) const;
 
  private:
@@ -27,13 +32,17 @@ class ExtremePoints {
   };
   using Indices = std::vector<std::uint32_t>;
 
-  void Split(const Square& square, const Indices& candidates, int level,
-             std::vector<Indices>& by_square) const;
+  bool Sort(int levels);
+  void Split(const Square& square, const Indices& candidates, int level);
   Indices MayBeFarthest(const Square& square, const Indices& candidates) const;
   std::size_t SquareOf(const Eigen::Vector3d& direction) const;
   double Farthest(const Eigen::Vector3d& direction_G) const;
 
+  // Only while it is made.
   std::vector<Eigen::Vector3d> points_G_;
+  std::vector<Indices> by_square_;
+  std::size_t left_to_look_at_ = 0;
+
   int levels_ = 0;                    // a face is cut into 2^levels_ squares each way
   std::vector<std::uint32_t> first_;  // of each square in candidates_G_, and the end
   std::vector<Eigen::Vector3d> candidates_G_;

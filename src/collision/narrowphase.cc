@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "clearway/geometry/hull.h"
 #include "collision/closed_form.h"
@@ -14,15 +16,19 @@
 namespace clearway {
 namespace {
 
-std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse) {
+std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse,
+                                            const MeshBudget& budget) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-    return std::make_shared<const PreparedMesh>(mesh->mesh);
+    return std::make_shared<const PreparedMesh>(mesh->mesh, budget);
   }
   const auto* polytope = std::get_if<ConvexPolytope>(&shape);
   if (polytope == nullptr || reuse == Reuse::kFewQueries) return nullptr;
-  Mesh hull = ConvexHullOf(polytope->mesh->vertices);
+  const std::vector<Eigen::Vector3d>& corners = polytope->mesh->vertices;
+  if (corners.size() > budget.hull_corners) return nullptr;
+  Mesh hull = ConvexHullOf(corners);
   if (hull.triangles.empty()) return nullptr;
-  return std::make_shared<const PreparedMesh>(std::make_shared<const Mesh>(std::move(hull)));
+  return std::make_shared<const PreparedMesh>(std::make_shared<const Mesh>(std::move(hull)),
+                                              budget);
 }
 
 Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
@@ -33,10 +39,10 @@ struct ShapeGeometry::Fcl {
   std::shared_ptr<const FclGeometry> geometry;
 };
 
-ShapeGeometry::ShapeGeometry(const Shape& shape, Reuse reuse)
+ShapeGeometry::ShapeGeometry(const Shape& shape, Reuse reuse, const MeshBudget& budget)
     : shape_(shape),
       box_G_(BoundingBox(shape)),
-      prepared_(Prepare(shape, reuse)),
+      prepared_(Prepare(shape, reuse, budget)),
       fcl_(std::make_shared<const Fcl>(Fcl{ToFcl(shape)})) {}
 
 PlacedShape::PlacedShape(const ShapeGeometry& geometry, const Pose& T_F_G)

@@ -8,6 +8,7 @@
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/pose.h"
 #include "clearway/geometry/shape.h"
+#include "collision/mesh_budget.h"
 
 namespace clearway {
 
@@ -21,7 +22,8 @@ enum class Reuse { kFewQueries, kManyQueries };
 class ShapeGeometry {
  public:
   // Meshes must not be empty.
-  explicit ShapeGeometry(const Shape& shape, Reuse reuse = Reuse::kFewQueries);
+  explicit ShapeGeometry(const Shape& shape, Reuse reuse = Reuse::kFewQueries,
+                         const MeshBudget& budget = {});
 
   const Shape& shape() const { return shape_; }
   const Aabb& box_G() const { return box_G_; }

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
-
-#include "clearway/geometry/hull.h"
 
 namespace clearway {
 namespace {
@@ -13,20 +10,14 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-9;
 
-// Points whose convex hull is that of the mesh; a flat one has no hull.
-std::vector<Eigen::Vector3d> CornersOf(const Mesh& mesh) {
-  std::vector<Eigen::Vector3d> corners = ConvexHullOf(mesh.vertices).vertices;
-  return corners.empty() ? mesh.vertices : corners;
-}
-
 }  // namespace
 
-PreparedMesh::PreparedMesh(std::shared_ptr<const Mesh> mesh)
+PreparedMesh::PreparedMesh(std::shared_ptr<const Mesh> mesh, const MeshBudget& budget)
     : box_G_(BoundingBox(TriangleMesh{mesh})),
-      extreme_(CornersOf(*mesh)),
+      extreme_(mesh->vertices),
       tree_(*mesh),
       winding_(mesh, tree_),
-      grid_(box_G_, tree_, winding_) {}
+      grid_(box_G_, tree_, winding_, budget) {}
 
 bool PreparedMesh::Contains(const Eigen::Vector3d& p_G) const {
   if (!box_G_.Contains(p_G)) return false;

@@ -7,6 +7,7 @@
 #include "clearway/geometry/shape.h"
 #include "collision/distance_grid.h"
 #include "collision/extreme_points.h"
+#include "collision/mesh_budget.h"
 #include "collision/oriented_box.h"
 #include "collision/triangle_tree.h"
 #include "collision/winding_tree.h"
@@ -17,11 +18,11 @@ namespace clearway {
 // distances answers most questions; the others go to the triangles. Motion leaves it as it is.
 // What it takes to make stands at PreparedRobot. Immutable; any number of threads may read it.
 //
-// Distances are in metres and 0 where the two meet, exact to 1e-9 m if at most up_to_m, and above
-// up_to_m beyond that.
+// Distances are in metres and 0 where the two meet, exact to 1e-9 m for points and to 1e-7 m for
+// boxes if at most up_to_m, and above up_to_m beyond that.
 class PreparedMesh {
  public:
-  explicit PreparedMesh(std::shared_ptr<const Mesh> mesh);
+  explicit PreparedMesh(std::shared_ptr<const Mesh> mesh, const MeshBudget& budget = {});
   PreparedMesh(const PreparedMesh&) = delete;
   PreparedMesh& operator=(const PreparedMesh&) = delete;
 

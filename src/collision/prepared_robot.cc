@@ -2,16 +2,18 @@
 
 #include <utility>
 
+#include "collision/mesh_budget.h"
 #include "collision/robot_geometry.h"
 
 namespace clearway {
 
 RobotGeometry::RobotGeometry(const Robot& robot) {
+  BudgetShares budgets(robot);
   for (const Link& link : robot.links) {
     Parts& parts = links_.emplace_back();
     for (const LinkShape& shape : link.shapes) {
       const bool at_origin = shape.T_L_G == Pose{};
-      parts.push_back({ShapeGeometry(shape.shape, Reuse::kManyQueries),
+      parts.push_back({ShapeGeometry(shape.shape, Reuse::kManyQueries, budgets.Next(shape.shape)),
                        at_origin ? std::nullopt : std::optional(shape.T_L_G)});
     }
   }

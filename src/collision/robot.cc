@@ -11,6 +11,7 @@ namespace clearway {
 namespace {
 
 constexpr double kMaxSize_m = 100;
+constexpr std::size_t kMaxShapesPerLink = 1000;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
@@ -122,8 +123,13 @@ absl::Status Validate(const Robot& robot) {
   if (robot.links.empty()) return Invalid("links", "is empty");
   for (std::size_t l = 0; l < robot.links.size(); ++l) {
     const std::string shapes_field = absl::StrCat("links[", l, "].shapes");
-    if (robot.links[l].shapes.empty()) return Invalid(shapes_field, "is empty");
-    for (std::size_t s = 0; s < robot.links[l].shapes.size(); ++s) {
+    const std::size_t count = robot.links[l].shapes.size();
+    if (count == 0) return Invalid(shapes_field, "is empty");
+    if (count > kMaxShapesPerLink) {
+      return Invalid(shapes_field,
+                     absl::StrCat("has ", count, " items; the limit is ", kMaxShapesPerLink));
+    }
+    for (std::size_t s = 0; s < count; ++s) {
       const LinkShape& part = robot.links[l].shapes[s];
       const std::string field = absl::StrCat(shapes_field, "[", s, "]");
       if (auto status = FirstError(

@@ -16,7 +16,7 @@ struct Triangle {
 // Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001.
 bool Meet(const Triangle& triangle_G, const OrientedBox& box);
 
-// In metres, 0 where they meet, exact to 1e-9 m if at most up_to_m, and above up_to_m beyond that:
+// In metres, 0 where they meet, exact to 1e-7 m if at most up_to_m, and above up_to_m beyond that:
 // by pairs of features as in Ericson, "Real-Time Collision Detection", 2005, section 5.1.
 double Distance(const Triangle& triangle_G, const OrientedBox& box, double up_to_m);
 

@@ -1,8 +1,10 @@
 #include "collision/triangle_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "clearway/geometry/aabb.h"
 #include "collision/closed_form.h"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-12;  // of coordinates within 100 m
+constexpr double kTouching_m = 1e-9;   // what Meet allows
 
 Eigen::Vector3d ThriceCentroid(const Triangle& t) { return t.a + t.b + t.c; }
 
@@ -33,11 +36,11 @@ double GapBetween(const TriangleTree::Node& node, const OrientedBox& box) {
 
 bool MayMeet(const TriangleTree::Node& node, const OrientedBox& box) {
   const Eigen::Vector3d apart_G = node.center_G - box.center_G;
-  if ((apart_G.cwiseAbs().array() > (node.half_m + box.reach_G).array() + kRounding_m).any()) {
+  if ((apart_G.cwiseAbs().array() > (node.half_m + box.reach_G).array() + kTouching_m).any()) {
     return false;
   }
   return ((box.R_B_G * apart_G).cwiseAbs().array() <=
-          (box.half_m + box.abs_R_B_G * node.half_m).array() + 1e-9)
+          (box.half_m + box.abs_R_B_G * node.half_m).array() + kTouching_m)
       .all();
 }
 
@@ -87,7 +90,7 @@ void TriangleTree::Build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 // Depth first, the nearer child before the other.
 template <class Bound, class Measure>
 TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
-                                          const Measure& measure) const {
+                                          const Measure& measure, std::uint64_t most_visits) const {
   struct Open {
     double bound_m;
     std::uint32_t node;
@@ -95,17 +98,18 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
   std::array<Open, kMaxDepth> open;
   std::size_t size = 0;
   double limit_m = up_to_m;
-  Nearest nearest{kFar, 0};
+  Nearest nearest{kFar, 0, 0, 0};
   open[size++] = {bound(nodes_[0]), 0};
-  while (size > 0) {
+  while (size > 0 && nearest.visits < most_visits) {
     const Open next = open[--size];
     if (next.bound_m > limit_m) continue;
     const Node& node = nodes_[next.node];
+    nearest.visits += 1 + node.count;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const double distance_m = measure(triangles_[i], limit_m);
       if (distance_m > limit_m) continue;
-      limit_m = distance_m;
-      nearest = {distance_m, i};
+      limit_m = nearest.distance_m = distance_m;
+      nearest.triangle = i;
       if (distance_m <= 0) return nearest;
     }
     if (node.count > 0) continue;
@@ -115,16 +119,20 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
     if (far.bound_m <= limit_m) open[size++] = far;
     if (near.bound_m <= limit_m) open[size++] = near;
   }
+  nearest.at_least_m = limit_m;
+  while (size > 0) nearest.at_least_m = std::min(nearest.at_least_m, open[--size].bound_m);
   return nearest;
 }
 
-TriangleTree::Nearest TriangleTree::NearestTo(const Eigen::Vector3d& p_G, double up_to_m) const {
+TriangleTree::Nearest TriangleTree::NearestTo(const Eigen::Vector3d& p_G, double up_to_m,
+                                              std::uint64_t most_visits) const {
   return Least(
       up_to_m,
       [&](const Node& node) {
         return ((p_G - node.center_G).cwiseAbs() - node.half_m).cwiseMax(0.0).norm();
       },
-      [&](const Triangle& t, double) { return PointTriangleDistance(p_G, t.a, t.b, t.c); });
+      [&](const Triangle& t, double) { return PointTriangleDistance(p_G, t.a, t.b, t.c); },
+      most_visits);
 }
 
 TriangleTree::Nearest TriangleTree::NearestTo(const OrientedBox& box, double up_to_m) const {

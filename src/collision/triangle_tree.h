@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <limits>
 #include <vector>
 
 #include "clearway/geometry/shape.h"
@@ -37,13 +37,19 @@ class TriangleTree {
   // Which of the mesh's triangles each of triangles() is.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
+  static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
   // The distance in metres from the surface, and which of triangles() is that near; infinite if the
-  // surface is farther than up_to_m.
+  // surface is farther than up_to_m. A search that ends at most_visits, to boxes and triangles, has
+  // the nearest triangle that it met.
   struct Nearest {
     double distance_m;
     std::uint32_t triangle;
+    double at_least_m;  // the surface is this far or farther; less than the distance only if ended
+    std::uint64_t visits;
   };
-  Nearest NearestTo(const Eigen::Vector3d& p_G, double up_to_m) const;
+  Nearest NearestTo(const Eigen::Vector3d& p_G, double up_to_m,
+                    std::uint64_t most_visits = kNoLimit) const;
   Nearest NearestTo(const OrientedBox& box, double up_to_m) const;
   bool Meets(const OrientedBox& box) const;
 
@@ -54,7 +60,8 @@ class TriangleTree {
   void Build(std::uint32_t node, std::uint32_t first, std::uint32_t last,
              const std::vector<Triangle>& all);
   template <class Bound, class Measure>
-  Nearest Least(double up_to_m, const Bound& bound, const Measure& measure) const;
+  Nearest Least(double up_to_m, const Bound& bound, const Measure& measure,
+                std::uint64_t most_visits = kNoLimit) const;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;

@@ -1,7 +1,6 @@
 #include "collision/winding_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <numbers>
 #include <numeric>
@@ -111,16 +110,24 @@ double WindingTree::AngleOf(const Sides& fan, const Eigen::Vector3d& p_G) const 
 }
 
 double WindingTree::At(const Eigen::Vector3d& p_G) const {
+  std::uint64_t work = 0;
+  return At(p_G, work);
+}
+
+double WindingTree::At(const Eigen::Vector3d& p_G, std::uint64_t& work) const {
   std::vector<std::uint32_t> open = {0};
   double angle = 0;
   while (!open.empty()) {
     const std::uint32_t index = open.back();
     open.pop_back();
     const TriangleTree::Node& node = tree_.nodes()[index];
+    ++work;
     if (fans_[index].used && node.Outside(p_G)) {
+      work += fans_[index].sides.size();
       angle += AngleOf(fans_[index].sides, p_G);
       continue;
     }
+    work += node.count;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const Triangle& t = tree_.triangles()[i];
       angle += SolidAngle(t.a - p_G, t.b - p_G, t.c - p_G);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -23,6 +22,8 @@ class WindingTree {
   WindingTree(std::shared_ptr<const Mesh> mesh, const TriangleTree& tree);
 
   double At(const Eigen::Vector3d& p_G) const;
+  // Adds to `work` what that takes: the boxes looked at, and the solid angles.
+  double At(const Eigen::Vector3d& p_G, std::uint64_t& work) const;
 
   struct Edge {
     Eigen::Vector3d from_G, to_G;

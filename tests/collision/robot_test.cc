@@ -144,6 +144,16 @@ TEST(RobotTest, RefusesBadShapesByField) {
   }
 }
 
+TEST(RobotTest, RefusesLinksOfTooManyShapes) {
+  Robot robot = Robot::SingleShape("r", Sphere{1});
+  robot.links[0].shapes.assign(1000, {Sphere{1}, Pose{}});
+  EXPECT_EQ(Validate(robot), absl::OkStatus());
+  robot.links[0].shapes.push_back({Sphere{1}, Pose{}});
+  EXPECT_EQ(Validate(robot).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(Validate(robot).message()),
+              HasSubstr("links[0].shapes has 1001 items; the limit is 1000"));
+}
+
 TEST(RobotTest, RefusesLinksWithoutShapesAndPosesThatAreNotRigid) {
   Robot robot = Robot::SingleShape("r", Sphere{1});
   robot.links.push_back({"bare", {}});

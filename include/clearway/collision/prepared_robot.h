@@ -13,9 +13,10 @@ class RobotGeometry;
 // triangles for each mesh and hull. Made once, handed to the SceneChecker of every scene version.
 // Immutable; any number of threads and checkers may share it.
 //
-// Making it takes some 15 ms for each mesh or hull of a few triangles, 0.07 s for 1,000 and 0.9 s
-// for 100,000; 0.15 s and 3 s if they are not closed. Each takes a quarter of a megabyte, and
-// 0.8 kB a triangle.
+// Making it takes a millisecond or two for each mesh or hull of a few triangles, 0.1 s for 1,000
+// and 0.8 s for 100,000; up to 0.5 s and 1.2 s if they are not closed. What the shapes of a robot
+// may take together is bounded: 500,000 triangles, however they lie, take 3 to 10 s. Each shape
+// takes up to a quarter of a megabyte, and some 0.7 kB a triangle.
 class PreparedRobot {
  public:
   // `robot` must pass Validate.
