@@ -3,8 +3,8 @@
 
 // Before a function whose loops the compiler makes vectors of. The results are the same everywhere:
 // the same operations on more values at a time. For functions local to a file: Clang 14 gives
-// others a name that callers elsewhere do not know. Not with the thread sanitizer: the function that
-// picks runs before the sanitizer is ready.
+// others a name that callers elsewhere do not know. Not with the thread sanitizer: the function
+// that picks runs before the sanitizer is ready.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define __SANITIZE_THREAD__ 1  // as GCC says it
