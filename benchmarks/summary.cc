@@ -23,7 +23,9 @@ class MedianReporter : public benchmark::ConsoleReporter {
       if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
       medians[run.run_name.function_name] =
           run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
-      for (const auto& [name, counter] : run.counters) counters[name] = counter.value;
+      for (const auto& [name, counter] : run.counters) {
+        if (name != "items_per_second") counters[name] = counter.value;  // the library's own
+      }
     }
   }
 
