@@ -128,6 +128,7 @@ bool TouchesUnobserved(const VoxelMap& map, const PlacedShape& shape,
   }
   const Search search(map.grid(), shape, margin_m);
   return AnyBlock(map.blocks(), first, last, [&](BlockKey key, const VoxelBlock* block) {
+    if (search.Misses(key)) return false;
     BlockMask voxels = RangeInBlock(key, keys).All();
     for (int z = 0; z < kBlockSize; ++z) {
       if (block != nullptr) voxels.words[z] &= ~block->observed.words[z];
