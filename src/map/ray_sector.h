@@ -10,8 +10,7 @@
 namespace clearway {
 
 // A part of a cloud's rays with a window of its own, so that threads can walk different sectors at
-// once, each in memory of its own. Keeps its memory from one cloud to the next. One
-// thread at a time.
+// once. Keeps its memory from one cloud to the next. One thread at a time.
 class RaySector {
  public:
   // A sector is told by the axis and sign of the direction's largest component, and by the sign of
