@@ -23,10 +23,12 @@ constexpr std::array<std::size_t, 9> kLastRound{1, 2, 3, 5, 6, 7, 9, 10, 12};
 
 constexpr std::size_t kRaysAtOnce = 2048;  // prepared before they are walked
 
-// Fine cones skip more, but it takes time to look at each. This is flat around the best.
+// Narrow cones skip more, but it takes time to look at each. This is flat around the best.
 int ConesAcross(std::size_t rays) {
-  constexpr double kRays = 30;
-  return 2 * std::clamp(static_cast<int>(std::sqrt(static_cast<double>(rays) / kRays) / 2), 4, 64);
+  constexpr double kRays = 8;  // in a narrow cone
+  constexpr int kMultiple = 1 << MarkedCones::kLevels;
+  const double across = std::sqrt(static_cast<double>(rays) / kRays);
+  return kMultiple * std::clamp(static_cast<int>(across / kMultiple), 1, 128 / kMultiple);
 }
 
 class Marker {

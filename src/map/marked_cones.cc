@@ -17,24 +17,35 @@ std::int32_t RoundDown(double value) {
 
 }  // namespace
 
+// A cone's least and greatest slopes along an axis, widened by what Depth_m rounds.
+struct MarkedCones::Slopes {
+  Slopes(int cell, int across)
+      : least(2 * (cell - kRounding) / across - 1),
+        most(2 * (cell + 1 + kRounding) / across - 1),
+        negative(cell < across / 2) {}
+
+  static constexpr double kRounding = 1e-3;
+  double least, most;
+  bool negative;
+};
+
 MarkedCones::MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, int main_axis,
                          bool negative, int across)
     : resolution_m_(grid.resolution_m()),
       axis_(main_axis),
       b_((main_axis + 1) % 3),
       c_((main_axis + 2) % 3),
-      sign_(negative ? -1 : 1),
-      across_(across),
-      cones_(static_cast<std::size_t>(across) * across) {
+      sign_(negative ? -1 : 1) {
   const VoxelKey voxel = grid.KeyOf(origin);
   origin_voxel_ = {voxel.x, voxel.y, voxel.z};
   for (int i = 0; i < 3; ++i) origin_[i] = origin[i] / resolution_m_;
   const double passed = origin_[axis_] - origin_voxel_[axis_];
   first_layer_ = std::clamp(negative ? passed : 1 - passed, 0.0, 1.0);
+  for (int level = 0; level < kLevels; ++level) levels_.emplace_back(across >> level);
 }
 
 double MarkedCones::Depth_m(const Eigen::Vector3f& direction, const BitWindow& window) {
-  const int half = across_ / 2;
+  const int half = levels_[0].across / 2;
   const float scale = static_cast<float>(half) / std::abs(direction[axis_]);
   const auto along = [&](int axis) {
     // Whatever rounds: no cone has directions of both signs.
@@ -42,48 +53,40 @@ double MarkedCones::Depth_m(const Eigen::Vector3f& direction, const BitWindow& w
     const int cell = outward < static_cast<float>(half - 1) ? static_cast<int>(outward) : half - 1;
     return direction[axis] < 0 ? half - 1 - cell : half + cell;
   };
-  const int index = along(b_) + across_ * along(c_);
-  Cone& cone = cones_[index];
-  if (!cone.looked) Look(index, window);
-  return (LayerBegin(cone.layers) - kStrayVoxels) * resolution_m_;
+  return (LayerBegin(Layers(0, along(b_), along(c_), window)) - kStrayVoxels) * resolution_m_;
 }
 
-void MarkedCones::NextRound() {
-  for (Cone& cone : cones_) cone.looked = false;
-}
-
-void MarkedCones::Look(int index, const BitWindow& window) {
-  // The cone's least and greatest slopes, widened by what Depth_m rounds.
-  struct Slopes {
-    double least, most;
-    bool negative;
-  };
-  const auto slopes_of = [this](int cell) -> Slopes {
-    constexpr double kRounding = 1e-3;
-    return {2 * (cell - kRounding) / across_ - 1, 2 * (cell + 1 + kRounding) / across_ - 1,
-            cell < across_ / 2};
-  };
-  const Slopes b = slopes_of(index % across_), c = slopes_of(index / across_);
-  Cone& cone = cones_[index];
-  cone.looked = true;
-  for (;; ++cone.layers) {
-    const double near = LayerBegin(cone.layers), far = LayerBegin(cone.layers + 1);
-    std::array<std::int32_t, 3> min, max;
-    min[axis_] = max[axis_] = origin_voxel_[axis_] + sign_ * cone.layers;
-    const auto spread = [&](int axis, const Slopes& slopes) {
-      const double least = slopes.least * (slopes.least < 0 ? far : near);
-      const double most = slopes.most * (slopes.most < 0 ? near : far);
-      min[axis] = RoundDown(origin_[axis] + least - kStrayVoxels);
-      max[axis] = RoundDown(origin_[axis] + most + kStrayVoxels);
-      // All steps along the axis have one sign: none leads behind the origin's voxel.
-      auto& behind = slopes.negative ? max[axis] : min[axis];
-      behind = slopes.negative ? std::min(behind, origin_voxel_[axis])
-                               : std::max(behind, origin_voxel_[axis]);
-    };
-    spread(b_, b);
-    spread(c_, c);
-    if (!window.AllSet({min[0], min[1], min[2]}, {max[0], max[1], max[2]})) return;
+int MarkedCones::Layers(int level, int b, int c, const BitWindow& window) {
+  const int across = levels_[level].across;
+  Cone& cone = levels_[level].cones[b + across * c];
+  if (cone.looked_in == round_) return cone.layers;
+  cone.looked_in = round_;
+  if (level + 1 < kLevels) {
+    cone.layers = std::max(cone.layers, Layers(level + 1, b / 2, c / 2, window));
   }
+  const Slopes slopes_b(b, across), slopes_c(c, across);
+  while (LayerMarked(cone.layers, slopes_b, slopes_c, window)) ++cone.layers;
+  return cone.layers;
+}
+
+bool MarkedCones::LayerMarked(int layer, const Slopes& b, const Slopes& c,
+                              const BitWindow& window) const {
+  const double near = LayerBegin(layer), far = LayerBegin(layer + 1);
+  std::array<std::int32_t, 3> min, max;
+  min[axis_] = max[axis_] = origin_voxel_[axis_] + sign_ * layer;
+  const auto spread = [&](int axis, const Slopes& slopes) {
+    const double least = slopes.least * (slopes.least < 0 ? far : near);
+    const double most = slopes.most * (slopes.most < 0 ? near : far);
+    min[axis] = RoundDown(origin_[axis] + least - kStrayVoxels);
+    max[axis] = RoundDown(origin_[axis] + most + kStrayVoxels);
+    // All steps along the axis have one sign: none leads behind the origin's voxel.
+    auto& behind = slopes.negative ? max[axis] : min[axis];
+    behind = slopes.negative ? std::min(behind, origin_voxel_[axis])
+                             : std::max(behind, origin_voxel_[axis]);
+  };
+  spread(b_, b);
+  spread(c_, c);
+  return window.AllSet({min[0], min[1], min[2]}, {max[0], max[1], max[2]});
 }
 
 }  // namespace clearway

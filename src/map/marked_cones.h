@@ -13,12 +13,14 @@ namespace clearway {
 
 // The directions from one origin near an axis (its component is the largest) in small cones. Of
 // each cone it finds up to which depth, the distance along the axis, all its voxels are marked in a
-// window: rays of the cone have nothing to add there. Marks are only ever added, so that depths
-// grow. Not thread-safe.
+// window: rays of the cone have nothing to add there. Where a wide cone is marked, the narrow ones
+// in it need no look. Marks are only ever added, so that depths grow. Not thread-safe.
 class MarkedCones {
  public:
-  // Directions whose component along `main_axis` is negative, or not; `across` cones, an even
-  // number, along each of the other two axes.
+  static constexpr int kLevels = 3;  // narrow cones, four of them in one, and four of those
+
+  // Directions whose component along `main_axis` is negative, or not; `across` narrow cones, a
+  // multiple of 2^kLevels, along each of the other two axes.
   MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, int main_axis, bool negative,
               int across);
 
@@ -26,26 +28,36 @@ class MarkedCones {
   // Metres. Looks at most once a round for each cone.
   double Depth_m(const Eigen::Vector3f& direction, const BitWindow& window);
   // More has been marked: look again.
-  void NextRound();
+  void NextRound() { ++round_; }
 
  private:
   struct Cone {
-    int layers = 0;  // of voxels along the main axis that are marked, the origin's the first
-    bool looked = false;
+    int layers = 0;     // of voxels along the main axis that are marked, the origin's the first
+    int looked_in = 0;  // what round
+  };
+  // Cones of one width.
+  struct Level {
+    explicit Level(int the_across) : across(the_across), cones(the_across * the_across) {}
+    int across;
+    std::vector<Cone> cones;
   };
 
   // Distance along the main axis from the origin to where a layer begins, in voxels.
   double LayerBegin(int layer) const { return layer == 0 ? 0 : first_layer_ + (layer - 1); }
-  void Look(int cone, const BitWindow& window);
+  // The marked layers of cone (b, c) of a level.
+  int Layers(int level, int b, int c, const BitWindow& window);
+  // Whether all of the cone's voxels in a layer are marked.
+  struct Slopes;
+  bool LayerMarked(int layer, const Slopes& b, const Slopes& c, const BitWindow& window) const;
 
   double resolution_m_;
   std::array<double, 3> origin_;  // in voxels
   std::array<std::int32_t, 3> origin_voxel_;
   int axis_, b_, c_;  // the main axis and the others
   std::int32_t sign_;
-  int across_;
   double first_layer_;  // how much of the origin's voxel lies ahead, in voxels
-  std::vector<Cone> cones_;
+  int round_ = 1;
+  std::vector<Level> levels_;  // the narrow ones first
 };
 
 }  // namespace clearway
