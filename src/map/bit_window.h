@@ -23,6 +23,8 @@ class BitWindow {
   std::int32_t IndexOf(VoxelKey key) const {
     return key.x - low_.x + strides_[1] * (key.y - low_.y) + strides_[2] * (key.z - low_.z);
   }
+  // The voxel of index 0.
+  VoxelKey low() const { return low_; }
   // What a step along x, y and z adds to an index.
   const std::array<std::int32_t, 3>& strides() const { return strides_; }
   // Bit i is bit i % 32 of word i / 32.

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 #include <new>
+#include <utility>
 
 namespace clearway {
 namespace {
@@ -23,85 +24,122 @@ constexpr bool kKept = false;  // so that the sanitizer sees what is used after 
 constexpr bool kKept = true;
 #endif
 
+// Memory that waits.
 struct Piece {
-  Piece* next;
+  Piece* next = nullptr;  // of its bundle
+  // If it is the first of its bundle in the store:
+  Piece* next_bundle = nullptr;
+  std::size_t size = 0;
 };
+constexpr std::size_t kBundle = 128;  // at most in one
 
-// Pieces that wait. Threads mostly use a shelf of their own, so that they seldom wait for others.
-struct alignas(64) Shelf {
-  std::mutex mutex;
+struct Bundle {
   Piece* first = nullptr;
-};
-using Shelves = std::array<Shelf, 16>;
+  std::size_t size = 0;
 
-// Never destroyed: maps may outlive every static object.
-Shelves& AllShelves() {
-  static Shelves& shelves = *new Shelves;
-  return shelves;
-}
-
-std::size_t OwnShelf() {
-  static std::atomic<std::size_t> threads = 0;
-  thread_local const std::size_t shelf = threads++ % std::tuple_size_v<Shelves>;
-  return shelf;
-}
-
-Piece* FirstOf(Shelf& shelf) {
-  std::lock_guard lock(shelf.mutex);
-  Piece* piece = shelf.first;
-  if (piece != nullptr) shelf.first = piece->next;
-  return piece;
-}
-
-void PutFirst(Shelf& shelf, Piece* first, Piece* last) {
-  std::lock_guard lock(shelf.mutex);
-  last->next = shelf.first;
-  shelf.first = first;
-}
-
-// Everything that waits elsewhere on one shelf; false if there is nothing on any.
-bool Fetch(Shelves& shelves, std::size_t own) {
-  for (std::size_t i = 1; i < shelves.size(); ++i) {
-    Shelf& other = shelves[(own + i) % shelves.size()];
-    std::scoped_lock lock(shelves[own].mutex, other.mutex);
-    if (shelves[own].first == nullptr) std::swap(shelves[own].first, other.first);
-    if (shelves[own].first != nullptr) return true;
+  void Add(Piece* piece) {
+    piece->next = first;
+    first = piece;
+    ++size;
   }
-  return false;
-}
+  Piece* Take() {
+    Piece* piece = first;
+    first = piece->next;
+    __builtin_prefetch(first);  // to be asked for its next one
+    --size;
+    return piece;
+  }
+};
+
+// Bundles for all threads.
+class Store {
+ public:
+  void Give(const Bundle& bundle) {
+    std::lock_guard lock(mutex_);
+    bundle.first->next_bundle = std::exchange(first_, bundle.first);
+    first_->size = bundle.size;
+  }
+  // Empty if there is none.
+  Bundle Take() {
+    std::lock_guard lock(mutex_);
+    if (first_ == nullptr) return {};
+    Piece* bundle = std::exchange(first_, first_->next_bundle);
+    return {bundle, bundle->size};
+  }
+
+ private:
+  std::mutex mutex_;
+  Piece* first_ = nullptr;
+};
 
 // One huge page at a time, if the system has such: blocks are read and written all over a map, and
 // small pages would cost a walk through the page table for each of them.
-void Buy(Shelf& shelf) {
+void Buy(Store& store) {
   constexpr std::size_t kBytes = std::size_t{1} << 21;
   constexpr std::align_val_t kAlignment{kBytes};
   auto* memory = static_cast<std::byte*>(::operator new(kBytes, kAlignment));
   madvise(memory, kBytes, MADV_HUGEPAGE);  // else it works too
-  Piece* first = nullptr;
-  Piece* last = nullptr;
-  for (std::size_t i = kBytes / kBlockMemoryBytes; i-- > 0;) {
-    first = new (memory + i * kBlockMemoryBytes) Piece{first};
-    if (last == nullptr) last = first;
+  Bundle bundle;
+  for (std::size_t i = 0; i < kBytes / kBlockMemoryBytes; ++i) {
+    if (bundle.size == kBundle) store.Give(std::exchange(bundle, {}));
+    bundle.Add(new (memory + i * kBlockMemoryBytes) Piece);
   }
-  PutFirst(shelf, first, last);
+  store.Give(bundle);
+}
+
+// What a thread takes from and gives back to, so that threads seldom wait for each other: a bundle
+// in use and a full or empty one, so that to take and give back in turn does not go to the store
+// each time (J. Bonwick, J. Adams: Magazines and Vmem, 2001, section 3.1).
+class alignas(64) Shelf {
+ public:
+  void* Take(Store& store) {
+    std::lock_guard lock(mutex_);
+    if (used_.size == 0) std::swap(used_, other_);
+    while (used_.size == 0) {
+      used_ = store.Take();
+      if (used_.size == 0) Buy(store);
+    }
+    return used_.Take();
+  }
+  void Give(void* memory, Store& store) {
+    std::lock_guard lock(mutex_);
+    if (used_.size == kBundle) std::swap(used_, other_);
+    if (used_.size == kBundle) store.Give(std::exchange(used_, {}));
+    used_.Add(new (memory) Piece);
+  }
+
+ private:
+  std::mutex mutex_;  // threads may share a shelf
+  Bundle used_, other_;
+};
+
+struct Shop {
+  Store store;
+  std::array<Shelf, 16> shelves;
+};
+
+// Never destroyed: maps may outlive every static object.
+Shop& TheShop() {
+  static Shop& shop = *new Shop;
+  return shop;
+}
+
+Shelf& OwnShelf() {
+  static std::atomic<std::size_t> threads = 0;
+  thread_local const std::size_t number = threads++;
+  return TheShop().shelves[number % TheShop().shelves.size()];
 }
 
 }  // namespace
 
 void* TakeBlockMemory() {
   if constexpr (!kKept) return ::operator new(kBlockMemoryBytes, kCacheLine);
-  Shelves& shelves = AllShelves();
-  const std::size_t own = OwnShelf();
-  while (true) {
-    if (Piece* piece = FirstOf(shelves[own])) return piece;
-    if (!Fetch(shelves, own)) Buy(shelves[own]);
-  }
+  return OwnShelf().Take(TheShop().store);
 }
 
 void GiveBackBlockMemory(void* memory) {
   if constexpr (!kKept) return ::operator delete(memory, kCacheLine);
-  Piece* piece = new (memory) Piece{nullptr};
-  PutFirst(AllShelves()[OwnShelf()], piece, piece);
+  OwnShelf().Give(memory, TheShop().store);
 }
 
 }  // namespace clearway

@@ -72,7 +72,11 @@ void RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
   for (const auto& part : marked) count += part.size();
   update.Reserve(count);
   for (const auto& part : marked) {
-    for (const BitWindow::Block& block : part) update.MarkFree(block.key, block.mask);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      constexpr std::size_t kAhead = 8;
+      if (i + kAhead < part.size()) update.Prefetch(part[i + kAhead].key);
+      update.MarkFree(part[i].key, part[i].mask);
+    }
   }
 }
 
@@ -90,7 +94,7 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
   for (RaySector& sector : impl_->sectors) sector.Clear();
   const bool distinct = options.discretize && cloud.origins.size() == 1;
   ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
-    impl_->sectors[rays[i].sector].Add(OriginOf(cloud, i), rays[i].limited.end);
+    impl_->sectors[rays[i].sector].Add({OriginOf(cloud, i), rays[i].limited.end});
   });
   impl_->MarkFree(grid, update);
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -9,10 +9,16 @@
 namespace clearway {
 namespace {
 
-using Mask [[gnu::vector_size(kRayLanes * sizeof(double))]] = std::int64_t;
+using Mask [[gnu::vector_size(kRayLanes * 8), gnu::aligned(kRayLanes * 8)]] = std::int64_t;
 
-CLEARWAY_MULTIVERSION void Start(double resolution_m, const LaneFloats (&origin)[3],
-                                 const LaneFloats (&end)[3], RayLanes& rays) {
+double Least(const LaneDoubles& values) {
+  double least = values[0];
+  for (int lane = 1; lane < kRayLanes; ++lane) least = std::min(least, values[lane]);
+  return least;
+}
+
+CLEARWAY_MULTIVERSION void Start(double resolution_m, const RaySegments& segments, RayLanes& rays) {
+  const auto& [origin, end] = segments;
   const double voxels_per_m = 1.0 / resolution_m;
   const auto index_of = [&](const LaneFloats& coordinate, LaneInts& index) {
     const LaneDoubles position = voxels_per_m * __builtin_convertvector(coordinate, LaneDoubles);
@@ -54,53 +60,69 @@ CLEARWAY_MULTIVERSION void Start(double resolution_m, const LaneFloats (&origin)
 
 // The sums of a walk, one after the other, so that they round alike; only the marking is left out.
 // The axes do not matter to each other: a walk makes its steps in the order of t_max.
-CLEARWAY_MULTIVERSION void Skip(RayLanes& rays, const LaneDoubles& until_m, int most_steps) {
-  const LaneDoubles until = until_m;
-  LaneDoubles x = rays.t_max[0], y = rays.t_max[1], z = rays.t_max[2];
-  const LaneDoubles dx = rays.t_delta[0], dy = rays.t_delta[1], dz = rays.t_delta[2];
-  for (int step = 0; step < most_steps; ++step) {
-    x = x < until ? x + dx : x;
-    y = y < until ? y + dy : y;
-    z = z < until ? z + dz : z;
+CLEARWAY_MULTIVERSION void Skip(RayBatch& rays, int axis, const BatchDoubles& until_m) {
+  BatchDoubles t;
+  // Steps that all lanes make, and that one of them may.
+  LaneDoubles least = LaneDoubles{} + std::numeric_limits<double>::max(), most{};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    t[i] = rays[i].t_max[axis];
+    const LaneDoubles steps = (until_m[i] - t[i]) / rays[i].t_delta[axis];
+    least = steps < least ? steps : least;
+    most = steps > most ? steps : most;
   }
-  const LaneDoubles moved[3] = {x, y, z};
+  const auto in_all = static_cast<int>(std::max(Least(least), 0.0));
+  const auto in_one = static_cast<int>(-Least(-most)) + 2;
+  for (int step = 0; step < in_all; ++step) {
+    for (std::size_t i = 0; i < rays.size(); ++i) t[i] += rays[i].t_delta[axis];
+  }
+  for (int step = in_all; step < in_one; ++step) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      t[i] = t[i] < until_m[i] ? t[i] + rays[i].t_delta[axis] : t[i];
+    }
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RayLanes& ray = rays[i];
+    const LaneDoubles steps = (t[i] - ray.t_max[axis]) / ray.t_delta[axis] + 0.5;
+    ray.key[axis] += ray.step[axis] * __builtin_convertvector(steps, LaneInts);
+    ray.t_max[axis] = t[i];
+  }
+}
+
+CLEARWAY_MULTIVERSION void Place(const RayLanes& rays, const BitWindow& window,
+                                 WindowRays& in_window) {
+  const VoxelKey low = window.low();
+  const auto index_of = [&](const LaneInts(&key)[3], LaneInts& index) {
+    index = key[0] - low.x + window.strides()[1] * (key[1] - low.y) +
+            window.strides()[2] * (key[2] - low.z);
+  };
   for (int axis = 0; axis < 3; ++axis) {
-    const LaneDoubles steps = (moved[axis] - rays.t_max[axis]) / rays.t_delta[axis] + 0.5;
-    rays.key[axis] += rays.step[axis] * __builtin_convertvector(steps, LaneInts);
-    rays.t_max[axis] = moved[axis];
+    in_window.t_max[axis] = rays.t_max[axis];
+    in_window.t_delta[axis] = rays.t_delta[axis];
+    in_window.stride[axis] = rays.step[axis] * window.strides()[axis];
   }
+  in_window.length_m = rays.length_m;
+  index_of(rays.key, in_window.index);
+  index_of(rays.end, in_window.end);
 }
 
 }  // namespace
 
-void StartLanes(const VoxelGrid& grid, const LaneFloats (&origin)[3], const LaneFloats (&end)[3],
-                RayLanes& rays) {
-  Start(grid.resolution_m(), origin, end, rays);
+void StartLanes(const VoxelGrid& grid, const RaySegments& segments, RayLanes& rays) {
+  Start(grid.resolution_m(), segments, rays);
 }
 
-void SkipLanes(RayLanes& rays, const LaneDoubles& wanted_m) {
+void SkipLanes(RayBatch& rays, const BatchDoubles& wanted_m) {
   // Where a ray begins on a border, rounding can put its first step a little before its origin.
   constexpr double kNowhere = -std::numeric_limits<double>::infinity();
-  const LaneDoubles until_m = wanted_m > 0 ? wanted_m : kNowhere + LaneDoubles{};
-  double most_steps = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const LaneDoubles steps = (until_m - rays.t_max[axis]) / rays.t_delta[axis];
-    for (int lane = 0; lane < kRayLanes; ++lane) most_steps = std::max(most_steps, steps[lane]);
+  BatchDoubles until_m;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    until_m[i] = wanted_m[i] > 0 ? wanted_m[i] : kNowhere + LaneDoubles{};
   }
-  Skip(rays, until_m, static_cast<int>(most_steps) + 2);
+  for (int axis = 0; axis < 3; ++axis) Skip(rays, axis, until_m);
 }
 
-WindowRay InWindow(const RayLanes& rays, int lane, const BitWindow& window) {
-  WindowRay ray;
-  for (int axis = 0; axis < 3; ++axis) {
-    ray.t_max[axis] = rays.t_max[axis][lane];
-    ray.t_delta[axis] = rays.t_delta[axis][lane];
-    ray.stride[axis] = rays.step[axis][lane] * window.strides()[axis];
-  }
-  ray.length_m = rays.length_m[lane];
-  ray.index = window.IndexOf({rays.key[0][lane], rays.key[1][lane], rays.key[2][lane]});
-  ray.end = window.IndexOf({rays.end[0][lane], rays.end[1][lane], rays.end[2][lane]});
-  return ray;
+void PlaceInWindow(const RayLanes& rays, const BitWindow& window, WindowRays& in_window) {
+  Place(rays, window, in_window);
 }
 
 }  // namespace clearway

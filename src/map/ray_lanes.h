@@ -1,20 +1,45 @@
 // Rays eight at a time, a lane each, up to where a walk begins.
 #pragma once
 
-#include <cstdint>
+#include <array>
 
 #include "clearway/map/ray.h"
 #include "map/bit_window.h"
+#include "map/lanes.h"
 #include "map/window_walk.h"
 
 namespace clearway {
 
-inline constexpr int kRayLanes = 8;
+// Eight rays, from origin[x, y, z] to end[x, y, z]. One that ends where it begins goes nowhere.
+struct RaySegments {
+  LaneFloats origin[3] = {}, end[3] = {};
+};
 
-// GCC's and Clang's vectors: operators work value by value, and comparisons give all ones or 0.
-using LaneFloats [[gnu::vector_size(kRayLanes * sizeof(float))]] = float;
-using LaneDoubles [[gnu::vector_size(kRayLanes * sizeof(double))]] = double;
-using LaneInts [[gnu::vector_size(kRayLanes * sizeof(std::int32_t))]] = std::int32_t;
+// One of them.
+struct RaySegment {
+  Eigen::Vector3f origin, end;
+};
+inline RaySegment SegmentIn(const RaySegments& segments, int lane) {
+  const auto& [origin, end] = segments;
+  return {{origin[0][lane], origin[1][lane], origin[2][lane]},
+          {end[0][lane], end[1][lane], end[2][lane]}};
+}
+inline void Put(const RaySegment& segment, int lane, RaySegments& segments) {
+  for (int axis = 0; axis < 3; ++axis) {
+    segments.origin[axis][lane] = segment.origin[axis];
+    segments.end[axis][lane] = segment.end[axis];
+  }
+}
+
+// Of one ray, eight times.
+inline RaySegments EightOf(const RaySegment& segment) {
+  RaySegments segments;
+  for (int axis = 0; axis < 3; ++axis) {
+    segments.origin[axis] = LaneFloats{} + segment.origin[axis];
+    segments.end[axis] = LaneFloats{} + segment.end[axis];
+  }
+  return segments;
+}
 
 // What RayStart is for one ray, bit for bit.
 struct RayLanes {
@@ -24,16 +49,20 @@ struct RayLanes {
   LaneDoubles length_m;
 };
 
-// StartRay for eight rays, from origin[x, y, z] to end[x, y, z].
-void StartLanes(const VoxelGrid& grid, const LaneFloats (&origin)[3], const LaneFloats (&end)[3],
-                RayLanes& rays);
+// StartRay for eight rays.
+void StartLanes(const VoxelGrid& grid, const RaySegments& segments, RayLanes& rays);
 
-// Moves each ray to where it has made all the steps that a walk makes before until_m metres from
-// its origin; not positive: the ray stays. until_m must lie before the ray's end voxel and its
-// length.
-void SkipLanes(RayLanes& rays, const LaneDoubles& until_m);
+// So many that the sums of some hide the latency of others'.
+inline constexpr std::size_t kBatch = 4;
+using RayBatch = std::array<RayLanes, kBatch>;
+using BatchDoubles = LaneDoubles[kBatch];
 
-// One of them, in the terms of a window.
-WindowRay InWindow(const RayLanes& rays, int lane, const BitWindow& window);
+// Moves each ray to where it has made all the steps that a walk makes before until_m[i][lane]
+// metres from its origin; not positive: the ray stays. until_m must lie before the ray's end voxel
+// and its length.
+void SkipLanes(RayBatch& rays, const BatchDoubles& until_m);
+
+// In the terms of a window.
+void PlaceInWindow(const RayLanes& rays, const BitWindow& window, WindowRays& in_window);
 
 }  // namespace clearway

@@ -12,25 +12,23 @@ int RaySector::IndexOf(const Eigen::Vector3f& direction) {
 }
 
 void RaySector::Clear() {
-  rays_.clear();
-  box_.setEmpty();
+  rays_.Clear();
   blocks_.clear();
 }
 
-void RaySector::Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
-  if (origin == end) return;  // WalkRay visits nothing
-  rays_.push_back({origin, end});
-  box_.extend(origin).extend(end);
+void RaySector::Add(const RaySegment& ray) {
+  if (ray.origin == ray.end) return;  // WalkRay visits nothing
+  rays_.Add(ray);
 }
 
 const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
-  if (rays_.empty()) return blocks_;
+  if (size() == 0) return blocks_;
   // A ray strays by less than a voxel from its segment.
   const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
     const VoxelKey key = grid.KeyOf(p.cast<double>());
     return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
   };
-  const BlockKey first = block_at(box_.min(), -2), last = block_at(box_.max(), 2);
+  const BlockKey first = block_at(rays_.box().min(), -2), last = block_at(rays_.box().max(), 2);
   if (!BitWindow::Fits(first, last)) {
     MarkSparsely(grid);
     return blocks_;
@@ -44,8 +42,13 @@ const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
 // Without a window, which would be too large.
 void RaySector::MarkSparsely(const VoxelGrid& grid) {
   ScanUpdate update;
-  for (const RaySegment& ray : rays_) {
-    WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { update.MarkFree(key); });
+  for (std::size_t round = 0; round < RayRounds::kCount; ++round) {
+    for (const RaySegments& rays : rays_.round(round)) {
+      for (int lane = 0; lane < kRayLanes; ++lane) {
+        const auto [origin, end] = SegmentIn(rays, lane);
+        WalkRay(grid, origin, end, [&](VoxelKey key) { update.MarkFree(key); });
+      }
+    }
   }
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
     blocks_.push_back({update.keys()[i], update.block(i).free});

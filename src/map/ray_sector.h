@@ -1,7 +1,7 @@
 // The rays of a scan that run in similar directions.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <vector>
 
 #include "map/bit_window.h"
@@ -19,7 +19,7 @@ class RaySector {
   static int IndexOf(const Eigen::Vector3f& direction);
 
   void Clear();
-  void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end);
+  void Add(const RaySegment& ray);
   std::size_t size() const { return rays_.size(); }
 
   // Walks the rays: the voxels that WalkRay visits, by blocks, each block once. Valid until Clear.
@@ -28,8 +28,7 @@ class RaySector {
  private:
   void MarkSparsely(const VoxelGrid& grid);
 
-  std::vector<RaySegment> rays_;
-  Eigen::AlignedBox3f box_;  // around them
+  RayRounds rays_;
   BitWindow window_;
   std::vector<BitWindow::Block> blocks_;
 };

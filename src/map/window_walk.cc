@@ -13,8 +13,50 @@ double If(bool condition, double value) {
 }
 std::int32_t If(bool condition, std::int32_t value) { return value & -std::int32_t{condition}; }
 
+// One of the rays.
+struct LaneRay {
+  double t_max[3], t_delta[3], length_m;
+  std::int32_t stride[3], index, end;
+};
+
+LaneRay RayOf(const WindowRays& rays, int lane) {
+  LaneRay ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.t_max[axis] = rays.t_max[axis][lane];
+    ray.t_delta[axis] = rays.t_delta[axis][lane];
+    ray.stride[axis] = rays.stride[axis][lane];
+  }
+  ray.length_m = rays.length_m[lane];
+  ray.index = rays.index[lane];
+  ray.end = rays.end[lane];
+  return ray;
+}
+
+// The rays that go somewhere, one after the other.
+class Queue {
+ public:
+  explicit Queue(std::span<const WindowRays> rays) : rays_(rays) {}
+
+  // False after the last one.
+  bool Next(LaneRay& ray) {
+    for (; next_ < rays_.size() * kRayLanes; ++next_) {
+      const WindowRays& rays = rays_[next_ / kRayLanes];
+      const auto lane = static_cast<int>(next_ % kRayLanes);
+      if (rays.index[lane] == rays.end[lane]) continue;
+      ray = RayOf(rays, lane);
+      ++next_;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  std::span<const WindowRays> rays_;
+  std::size_t next_ = 0;
+};
+
 // One step; false at the ray's end.
-bool Step(WindowRay& ray, std::uint32_t* words) {
+bool Step(LaneRay& ray, std::uint32_t* words) {
   auto& [x, y, z] = ray.t_max;
   words[ray.index >> 5] |= std::uint32_t{1} << (ray.index & 31);
   const bool x_before_y = x < y;
@@ -29,33 +71,17 @@ bool Step(WindowRay& ray, std::uint32_t* words) {
 
 }  // namespace
 
-WindowRay InWindow(const RayStart& start, const BitWindow& window) {
-  WindowRay ray;
-  for (int axis = 0; axis < 3; ++axis) {
-    ray.t_max[axis] = start.t_max[axis];
-    ray.t_delta[axis] = start.t_delta[axis];
-    ray.stride[axis] = start.step[axis] * window.strides()[axis];
-  }
-  ray.length_m = start.length_m;
-  ray.index = window.IndexOf(start.key);
-  ray.end = window.IndexOf(start.end);
-  return ray;
-}
-
-void WalkWindowPortable(std::span<const WindowRay> rays, std::uint32_t* words) {
+void WalkWindowPortable(std::span<const WindowRays> rays, std::uint32_t* words) {
   constexpr std::size_t kUnderWay = 4;  // the steps of one hide the latency of the others'
-  std::array<WindowRay, kUnderWay> under_way;
-  std::size_t next = 0, count = 0;
-  while (count < kUnderWay && next < rays.size()) under_way[count++] = rays[next++];
+  Queue queue(rays);
+  std::array<LaneRay, kUnderWay> under_way;
+  std::size_t count = 0;
+  while (count < kUnderWay && queue.Next(under_way[count])) ++count;
   while (count == kUnderWay) {
-    for (WindowRay& ray : under_way) {
-      if (Step(ray, words)) continue;
-      if (next < rays.size()) {
-        ray = rays[next++];
-      } else {
-        std::swap(ray, under_way[--count]);
-        break;
-      }
+    for (LaneRay& ray : under_way) {
+      if (Step(ray, words) || queue.Next(ray)) continue;
+      std::swap(ray, under_way[--count]);
+      break;
     }
   }
   for (std::size_t i = 0; i < count; ++i) {

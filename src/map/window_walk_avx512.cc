@@ -24,48 +24,64 @@ struct Group {
   __m256i index, end;
 };
 
-CLEARWAY_AVX512 inline void Put(Group& group, int lane, const WindowRay& ray) {
+// Moves a ray into a lane of the group.
+CLEARWAY_AVX512 inline void Put(Group& group, int lane, const WindowRays& rays, int from) {
   const auto at = static_cast<__mmask8>(1 << lane);
-  const auto put = [at](__m512d& lanes, double value) CLEARWAY_AVX512 {
-    lanes = _mm512_mask_broadcastsd_pd(lanes, at, _mm_set_sd(value));
+  const auto put = [at, from](__m512d& lanes, const LaneDoubles& values) CLEARWAY_AVX512 {
+    lanes = _mm512_mask_broadcastsd_pd(lanes, at, _mm_set_sd(values[from]));
   };
-  const auto put_int = [at](__m256i& lanes, std::int32_t value)
-                           CLEARWAY_AVX512 { lanes = _mm256_mask_set1_epi32(lanes, at, value); };
-  put(group.x, ray.t_max[0]);
-  put(group.y, ray.t_max[1]);
-  put(group.z, ray.t_max[2]);
-  put(group.dx, ray.t_delta[0]);
-  put(group.dy, ray.t_delta[1]);
-  put(group.dz, ray.t_delta[2]);
-  put(group.length_m, ray.length_m);
-  put_int(group.sx, ray.stride[0]);
-  put_int(group.sy, ray.stride[1]);
-  put_int(group.sz, ray.stride[2]);
-  put_int(group.index, ray.index);
-  put_int(group.end, ray.end);
+  const auto put_int = [at, from](__m256i& lanes, const LaneInts& values) CLEARWAY_AVX512 {
+    lanes = _mm256_mask_set1_epi32(lanes, at, values[from]);
+  };
+  put(group.x, rays.t_max[0]);
+  put(group.y, rays.t_max[1]);
+  put(group.z, rays.t_max[2]);
+  put(group.dx, rays.t_delta[0]);
+  put(group.dy, rays.t_delta[1]);
+  put(group.dz, rays.t_delta[2]);
+  put(group.length_m, rays.length_m);
+  put_int(group.sx, rays.stride[0]);
+  put_int(group.sy, rays.stride[1]);
+  put_int(group.sz, rays.stride[2]);
+  put_int(group.index, rays.index);
+  put_int(group.end, rays.end);
 }
 
 // The rays that are not yet under way, and how many are.
 class Queue {
  public:
-  Queue(std::span<const WindowRay> rays, std::uint32_t* words)
-      : rays_(rays), words_(words), none_{{0, 0, 0}, {0, 0, 0}, 1, {0, 0, 0}, rays[0].index, -1} {}
+  Queue(std::span<const WindowRays> rays, std::uint32_t* words) : rays_(rays), words_(words) {
+    Find();
+  }
 
-  // Starts the next ray in the lane; without one, the lane marks its first voxel for ever.
+  // Starts the next ray in the lane; without one, the lane marks a voxel that is marked for ever.
   CLEARWAY_AVX512 void Start(Group& group, int lane) {
-    if (next_ == rays_.size()) return Put(group, lane, none_);
-    const WindowRay& ray = rays_[next_++];
-    words_[ray.index >> 5] |= std::uint32_t{1} << (ray.index & 31);
-    Put(group, lane, ray);
+    if (next_ == rays_.size() * kLanes) return Put(group, lane, none_, 0);
+    const WindowRays& rays = rays_[next_ / kLanes];
+    const auto from = static_cast<int>(next_ % kLanes);
+    const std::int32_t index = none_.index[0] = rays.index[from];
+    words_[index >> 5] |= std::uint32_t{1} << (index & 31);
+    Put(group, lane, rays, from);
     ++under_way_;
+    ++next_;
+    Find();
   }
   void End() { --under_way_; }
   bool Empty() const { return under_way_ == 0; }
 
  private:
-  std::span<const WindowRay> rays_;
+  // Goes on to the next ray that goes anywhere.
+  void Find() {
+    while (next_ < rays_.size() * kLanes && GoesNowhere()) ++next_;
+  }
+  bool GoesNowhere() const {
+    const WindowRays& rays = rays_[next_ / kLanes];
+    return rays.index[next_ % kLanes] == rays.end[next_ % kLanes];
+  }
+
+  std::span<const WindowRays> rays_;
   std::uint32_t* words_;
-  WindowRay none_;
+  WindowRays none_{{}, {}, LaneDoubles{} + 1, {}, {}, LaneInts{} - 1};  // never moves, never ends
   std::size_t next_ = 0;
   std::size_t under_way_ = 0;
 };
@@ -92,6 +108,8 @@ CLEARWAY_AVX512 inline unsigned Step(Group& g, std::uint32_t* words) {
   _mm256_store_si256(reinterpret_cast<__m256i*>(bit),
                      _mm256_maskz_sllv_epi32(static_cast<__mmask8>(~ended), _mm256_set1_epi32(1),
                                              _mm256_and_si256(g.index, _mm256_set1_epi32(31))));
+  // Through memory: to take lanes out of registers one by one takes twice as long.
+  asm("" : "+m"(word), "+m"(bit));
   for (int lane = 0; lane < kLanes; ++lane) words[word[lane]] |= bit[lane];
   return ended;
 }
@@ -105,7 +123,7 @@ CLEARWAY_AVX512 inline void Refill(Group& group, unsigned ended, Queue& queue) {
 }
 
 // Two groups, for the steps of one hide the latency of the other's.
-CLEARWAY_AVX512 void Walk(std::span<const WindowRay> rays, std::uint32_t* words) {
+CLEARWAY_AVX512 void Walk(std::span<const WindowRays> rays, std::uint32_t* words) {
   Queue queue(rays, words);
   Group a{}, b{};
   for (int lane = 0; lane < kLanes; ++lane) queue.Start(a, lane);
@@ -119,7 +137,7 @@ CLEARWAY_AVX512 void Walk(std::span<const WindowRay> rays, std::uint32_t* words)
 
 }  // namespace
 
-void WalkWindowAvx512(std::span<const WindowRay> rays, std::uint32_t* words) {
+void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   if (!rays.empty()) Walk(rays, words);
 }
 
@@ -131,7 +149,7 @@ bool HasAvx512() { return __builtin_cpu_supports("avx512f") && __builtin_cpu_sup
 
 namespace clearway {
 
-void WalkWindowAvx512(std::span<const WindowRay> rays, std::uint32_t* words) {
+void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   WalkWindowPortable(rays, words);
 }
 bool HasAvx512() { return false; }

@@ -58,5 +58,19 @@ TEST(BlockMemory, OneThreadGivesBackWhatAnotherTook) {
   }
 }
 
+TEST(BlockMemory, WhatAnotherThreadGaveBackIsTakenAgain) {
+  constexpr int kPieces = 20000;
+  std::set<void*> before;
+  for (void* piece : TakeAndFill(kPieces, 1)) before.insert(piece);
+  std::thread([&] { GiveBack({before.begin(), before.end()}); }).join();
+  const std::vector<void*> pieces = TakeAndFill(kPieces, 2);
+  std::size_t again = 0;
+  for (void* piece : pieces) again += before.count(piece);
+  GiveBack(pieces);
+#if !defined(__SANITIZE_ADDRESS__)
+  EXPECT_GT(again, kPieces * 9 / 10);  // all but what the other thread keeps at hand
+#endif
+}
+
 }  // namespace
 }  // namespace clearway

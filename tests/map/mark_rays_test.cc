@@ -18,7 +18,9 @@ constexpr double kResolution_m = 0.05;
 std::set<VoxelKey> Marked(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
   BitWindow window;
   window.Cover({-16, -16, -16}, {15, 15, 15});  // 6.4 m to each side
-  MarkRays(grid, rays, window);
+  RayRounds rounds;
+  for (const RaySegment& ray : rays) rounds.Add(ray);
+  MarkRays(grid, rounds, window);
   std::vector<BitWindow::Block> blocks;
   for (std::size_t row = 0; row < window.rows(); ++row) window.TakeRow(row, blocks);
   std::set<VoxelKey> voxels;

@@ -11,22 +11,24 @@ namespace {
 
 using testing_support::Random;
 
-struct Segment {
-  Eigen::Vector3f origin, end;
-};
-using Segments = std::array<Segment, kRayLanes>;
+using Segments = std::array<RaySegment, kRayLanes>;
 
 RayLanes Started(const VoxelGrid& grid, const Segments& segments) {
-  LaneFloats origin[3], end[3];
-  for (int lane = 0; lane < kRayLanes; ++lane) {
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis][lane] = segments[lane].origin[axis];
-      end[axis][lane] = segments[lane].end[axis];
-    }
-  }
+  RaySegments eight;
+  for (int lane = 0; lane < kRayLanes; ++lane) Put(segments[lane], lane, eight);
   RayLanes lanes;
-  StartLanes(grid, origin, end, lanes);
+  StartLanes(grid, eight, lanes);
   return lanes;
+}
+
+// All of a batch alike but for where they are to be moved.
+RayLanes Skipped(const RayLanes& rays, const LaneDoubles& until_m, std::size_t place = 0) {
+  RayBatch batch;
+  batch.fill(rays);
+  BatchDoubles all_until_m{};
+  all_until_m[place] = until_m;
+  SkipLanes(batch, all_until_m);
+  return batch[place];
 }
 
 VoxelKey KeyIn(const LaneInts (&key)[3], int lane) {
@@ -35,7 +37,7 @@ VoxelKey KeyIn(const LaneInts (&key)[3], int lane) {
 
 Segments RandomSegments(Random& random) {
   Segments segments;
-  for (Segment& segment : segments) {
+  for (RaySegment& segment : segments) {
     segment = {random.Vector(5).cast<float>(), random.Vector(40).cast<float>()};
     // Along an axis, in a plane, or to where it begins.
     for (int axis = 0; axis < 3; ++axis) {
@@ -72,8 +74,7 @@ TEST(RayLanes, RaysTooShortForADirectionStandStill) {
   Segments segments;
   segments.fill({{0, 0, 0}, {-1e-30f, -1e-30f, 0}});
   segments[1] = {{0, 0, 0}, {0, 0, 0}};
-  RayLanes lanes = Started(VoxelGrid(0.1), segments);
-  SkipLanes(lanes, LaneDoubles{} + 1.0);
+  const RayLanes lanes = Skipped(Started(VoxelGrid(0.1), segments), LaneDoubles{} + 1.0);
   for (int lane = 0; lane < kRayLanes; ++lane) {
     EXPECT_EQ(KeyIn(lanes.key, lane), (VoxelKey{0, 0, 0}));
     for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(lanes.step[axis][lane], 0);
@@ -87,7 +88,7 @@ TEST(RayLanes, StaysWhereItIsUntilNowhere) {
   segments.fill({{0, 0, 0}, {1, -4e-8f, -4e-8f}});
   RayLanes lanes = Started(VoxelGrid(0.02), segments);
   ASSERT_LT(lanes.t_max[1][0], -1e-3);
-  SkipLanes(lanes, LaneDoubles{} - 2e-4);
+  lanes = Skipped(lanes, LaneDoubles{} - 2e-4);
   EXPECT_EQ(KeyIn(lanes.key, 0), (VoxelKey{0, 0, 0}));
 }
 
@@ -104,25 +105,55 @@ RayStart WalkedTo(RayStart ray, double until_m) {
   }
 }
 
+void ExpectWalked(const VoxelGrid& grid, const Segments& segments, const LaneDoubles& until_m,
+                  const RayLanes& skipped) {
+  for (int lane = 0; lane < kRayLanes; ++lane) {
+    if (segments[lane].origin == segments[lane].end) continue;
+    const RayStart one =
+        WalkedTo(StartRay(grid, segments[lane].origin, segments[lane].end), until_m[lane]);
+    ASSERT_EQ(KeyIn(skipped.key, lane), one.key);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_EQ(skipped.t_max[axis][lane], one.t_max[axis]);
+    }
+  }
+}
+
 TEST(RayLanes, SkipsToWhereAWalkWouldBe) {
   const VoxelGrid grid(0.1);
   Random random(2);
   for (int round = 0; round < 500; ++round) {
     const Segments segments = RandomSegments(random);
-    RayLanes lanes = Started(grid, segments);
+    const RayLanes lanes = Started(grid, segments);
     LaneDoubles until_m;
     for (int lane = 0; lane < kRayLanes; ++lane) {
       until_m[lane] = random.Uniform(-0.2, 1) * (lanes.length_m[lane] - 0.2);
     }
-    SkipLanes(lanes, until_m);
-    for (int lane = 0; lane < kRayLanes; ++lane) {
-      if (segments[lane].origin == segments[lane].end) continue;
-      const RayStart one =
-          WalkedTo(StartRay(grid, segments[lane].origin, segments[lane].end), until_m[lane]);
-      ASSERT_EQ(KeyIn(lanes.key, lane), one.key);
-      for (int axis = 0; axis < 3; ++axis) {
-        ASSERT_EQ(lanes.t_max[axis][lane], one.t_max[axis]);
+    ExpectWalked(grid, segments, until_m, Skipped(lanes, until_m, round % kBatch));
+  }
+}
+
+// As a camera's: all lanes of a batch make many steps.
+TEST(RayLanes, SkipsAlikeWhenAllGoFar) {
+  const VoxelGrid grid(0.05);
+  Random random(3);
+  for (int round = 0; round < 100; ++round) {
+    std::array<Segments, kBatch> segments;
+    RayBatch batch;
+    BatchDoubles until_m;
+    const Eigen::Vector3f origin = random.Vector(1).cast<float>();
+    const Eigen::Vector3d middle = random.Vector(20);
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      for (RaySegment& ray : segments[i]) {
+        ray = {origin, (middle + random.Vector(0.1)).cast<float>()};
       }
+      batch[i] = Started(grid, segments[i]);
+      for (int lane = 0; lane < kRayLanes; ++lane) {
+        until_m[i][lane] = random.Uniform(0.8, 1) * (batch[i].length_m[lane] - 0.2);
+      }
+    }
+    SkipLanes(batch, until_m);
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      ExpectWalked(grid, segments[i], until_m[i], batch[i]);
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include "clearway/map/ray.h"
 #include "map/bit_window.h"
+#include "map/ray_lanes.h"
 #include "support/random.h"
 
 namespace clearway {
@@ -30,11 +31,18 @@ class WindowWalkTest : public testing::TestWithParam<Case> {
   }
   void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
     WalkRay(grid_, origin, end, [&](VoxelKey key) { expected_.insert(key); });
-    const RayStart start = StartRay(grid_, origin, end);
-    if (start.key != start.end) rays_.push_back(InWindow(start, window_));
+    const int lane = count_++ % kRayLanes;
+    if (lane == 0) segments_.push_back({});  // the other lanes go nowhere
+    Put({origin, end}, lane, segments_.back());
   }
   void ExpectSameVoxels() {
-    GetParam().walk(rays_, window_.words());
+    std::vector<WindowRays> rays(segments_.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      RayLanes started;
+      StartLanes(grid_, segments_[i], started);
+      PlaceInWindow(started, window_, rays[i]);
+    }
+    GetParam().walk(rays, window_.words());
     std::vector<BitWindow::Block> blocks;
     for (std::size_t row = 0; row < window_.rows(); ++row) {
       window_.TakeRow(row, blocks);
@@ -44,13 +52,15 @@ class WindowWalkTest : public testing::TestWithParam<Case> {
       block.mask.ForEach([&](int i) { visited.insert(VoxelAt(block.key, i)); });
     }
     EXPECT_EQ(visited, expected_);
-    rays_.clear();
+    segments_.clear();
+    count_ = 0;
     expected_.clear();
   }
 
   const VoxelGrid grid_{kResolution_m};
   BitWindow window_;
-  std::vector<WindowRay> rays_;
+  std::vector<RaySegments> segments_;
+  int count_ = 0;  // of the rays in them
   std::set<VoxelKey> expected_;
 };
 
@@ -65,6 +75,17 @@ TEST_P(WindowWalkTest, VisitsTheVoxelsOfWalkRay) {
     }
     ExpectSameVoxels();
   }
+}
+
+// The rays between them have ended before they begin.
+TEST_P(WindowWalkTest, PassesOverRaysThatGoNowhere) {
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3f origin = random.Vector(3).cast<float>();
+    const bool stays = i < 20 || random.Integer(0, 2) > 0;
+    Add(origin, stays ? origin : random.Vector(12).cast<float>());
+  }
+  ExpectSameVoxels();
 }
 
 TEST_P(WindowWalkTest, RaysAlongAxesAndThroughBorders) {

@@ -35,6 +35,8 @@ class ScanUpdate {
   const std::vector<BlockKey>& keys() const { return keys_; }
   const Block& block(std::size_t i) const { return blocks_[i]; }
   void Reserve(std::size_t blocks);
+  // Asks memory for the place of a block that will be marked soon.
+  void Prefetch(BlockKey key) const { index_.prefetch(key); }
 
  private:
   Block& BlockFor(BlockKey key);
