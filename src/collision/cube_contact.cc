@@ -4,13 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/closed_form.h"
 #include "collision/prepared_mesh.h"
 
 namespace clearway {
 
 CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
     : shape_(shape), line_(shape.AsRoundedLine()), box_(shape.AsBox()), mesh_(shape.AsMesh()) {
-  const double reach_m = margin_m + (line_ ? line_->radius_m : 0);
+  radius_m_ = line_ ? line_->radius_m : 0;
+  const double reach_m = margin_m + radius_m_;
   sharp_ = reach_m == 0;
   near_m_ = std::max(reach_m - kRounding_m, 0.0);
   far_m_ = reach_m + kRounding_m;
@@ -73,6 +75,42 @@ CubeContact::Answer CubeContact::OfAnyShape(const Eigen::Vector3d& center_F,
   if (mesh_ != nullptr) return OfMesh(center_F, half_edge_m);
   const std::optional<Eigen::Vector3d> to_center_F = shape_.FromNearestPoint(center_F);
   return to_center_F ? Between(*to_center_F, half_edge_m) : Answer::kOpen;
+}
+
+std::optional<Eigen::Vector3d> CubeContact::FromConvex(const Eigen::Vector3d& p_F) const {
+  if (line_) return FromLine(p_F);
+  if (box_) return box_->R_F_G * FromBox(p_F);
+  return mesh_ != nullptr ? std::nullopt : shape_.FromNearestPoint(p_F);
+}
+
+CubeContact::Bounds CubeContact::DistanceTo(const Eigen::Vector3d& center_F,
+                                            double half_edge_m) const {
+  if (mesh_ != nullptr) return MeshDistanceTo(center_F, half_edge_m);
+  const std::optional<Eigen::Vector3d> to_center_F = FromConvex(center_F);
+  if (!to_center_F) {  // by the boxes alone
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(half_edge_m);
+    const Aabb cube{center_F - half, center_F + half};
+    return {BoxBoxDistance(shape_.box_F(), cube) - kRounding_m,
+            std::numeric_limits<double>::infinity()};
+  }
+  // As Between.
+  const Eigen::Array3d gap = to_center_F->array().abs();
+  const double distance_m = to_center_F->norm();
+  const double to_plane_m = distance_m > 0 ? distance_m - half_edge_m * gap.sum() / distance_m : 0;
+  const double to_point_m = (gap - half_edge_m).max(0).matrix().norm();
+  return {std::max(to_plane_m - radius_m_, 0.0) - kRounding_m,
+          std::max(to_point_m - radius_m_, 0.0) + kRounding_m};
+}
+
+// As OfMesh.
+CubeContact::Bounds CubeContact::MeshDistanceTo(const Eigen::Vector3d& center_F,
+                                                double half_edge_m) const {
+  const DistanceGrid::Surroundings around = mesh_->Around(shape_.ToG(center_F));
+  const double to_corner_m = kToCorner * half_edge_m;
+  if (around.same_m > kRounding_m && around.inside) return {-kRounding_m, kRounding_m};
+  const bool outside = around.same_m > to_corner_m + kRounding_m;
+  return {outside ? std::max(around.near_m - to_corner_m, 0.0) - kRounding_m : -kRounding_m,
+          std::max(around.far_m - half_edge_m, 0.0) + kRounding_m};
 }
 
 }  // namespace clearway

@@ -27,6 +27,13 @@ class CubeContact {
     return answer == Answer::kOpen && sharp_ ? OfBoxes(center_F, half_edge_m) : answer;
   }
 
+  // The distance between shape and cube, whatever the margin, lies between these, with 1e-9 m to
+  // spare.
+  struct Bounds {
+    double least_m, most_m;
+  };
+  Bounds DistanceTo(const Eigen::Vector3d& center_F, double half_edge_m) const;
+
  private:
   static constexpr double kToCorner = 1.7320508075688774;  // of a cube's centre, in half edges
   static constexpr double kRounding_m = 1e-9;
@@ -58,13 +65,17 @@ class CubeContact {
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfAnyShape(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  Bounds MeshDistanceTo(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  // From the line, or from the nearest point of a shape that has a closed form for it.
+  std::optional<Eigen::Vector3d> FromConvex(const Eigen::Vector3d& p_F) const;
 
   const PlacedShape& shape_;
   // At most one of these.
   std::optional<RoundedLine> line_;
   std::optional<TurnedBox> box_;
   const PreparedMesh* mesh_;
-  bool sharp_;  // neither rounded nor with a margin
+  bool sharp_;       // neither rounded nor with a margin
+  double radius_m_;  // of a rounded line
   // A cube certainly touches if it is as near as near_m_ to the line or to the shape, and does not
   // beyond far_m_.
   double near_m_, far_m_;

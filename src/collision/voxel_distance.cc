@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "collision/closed_form.h"
+#include "collision/cube_contact.h"
 #include "collision/voxel_search.h"
 
 namespace clearway {
@@ -86,35 +87,91 @@ bool Covered(const std::vector<Aabb>& boxes, const Aabb& inner) {
   return Cover(boxes, 0, inner, effort);
 }
 
-}  // namespace
+// For the voxel nearest to a shape among blocks with occupied voxels.
+class OccupiedSearch {
+ public:
+  OccupiedSearch(const VoxelGrid& grid, const PlacedShape& shape, double up_to_m)
+      : grid_(grid),
+        shape_(shape),
+        bounds_(shape, 0),
+        nearest_m_(std::nextafter(up_to_m, kFar)),
+        at_most_m_(nearest_m_) {}
 
-// Blocks in the order of their distance, until the next one is farther than what was found.
-double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m) {
-  KeyRange keys;
-  if (!KeysTouching(map.grid(), shape.box_F().Padded(up_to_m), keys)) return kFar;
-  struct Candidate {
-    double bound_m;
+  void AddBlock(BlockKey key, const VoxelBlock& block) {
+    const double half_m = 0.5 * kBlockSize * grid_.resolution_m();
+    const Eigen::Vector3d corner = grid_.BoxOf(VoxelAt(key, 0)).min;
+    const double least_m = bounds_.DistanceTo(corner.array() + half_m, half_m).least_m;
+    if (least_m < at_most_m_) blocks_.push_back({least_m, key, &block});
+  }
+
+  double Nearest_m() {
+    std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
+      return std::tie(a.least_m, a.key) < std::tie(b.least_m, b.key);
+    });
+    for (const Block& block : blocks_) {
+      if (block.least_m >= at_most_m_) break;
+      AddVoxels(block);
+    }
+    std::sort(voxels_.begin(), voxels_.end(), [](const Voxel& a, const Voxel& b) {
+      return std::tie(a.least_m, a.key) < std::tie(b.least_m, b.key);
+    });
+    for (const Voxel& voxel : voxels_) {
+      if (voxel.least_m >= std::min(nearest_m_, at_most_m_)) break;
+      nearest_m_ = std::min(nearest_m_, shape_.DistanceTo(grid_.BoxOf(voxel.key), nearest_m_));
+    }
+    return nearest_m_;
+  }
+
+ private:
+  struct Block {
+    double least_m;
     BlockKey key;
     const VoxelBlock* block;
   };
-  std::vector<Candidate> candidates;
-  map.blocks().ForEachIn(
-      BlockOf(keys.min), BlockOf(keys.max), [&](BlockKey key, const VoxelBlock& block) {
-        if (!block.occupied.Any()) return;
-        const double bound_m = BoxBoxDistance(shape.box_F(), BoxOfBlock(map.grid(), key));
-        if (bound_m <= up_to_m) candidates.push_back({bound_m, key, &block});
-      });
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.bound_m, a.key) < std::tie(b.bound_m, b.key);
-  });
-  double nearest_m = std::nextafter(up_to_m, kFar);
-  for (const Candidate& candidate : candidates) {
-    if (candidate.bound_m >= nearest_m) break;
-    SearchBlock(
-        map.grid(), candidate.key, candidate.block->occupied, shape, [](VoxelKey) { return true; },
-        nearest_m);
+  struct Voxel {
+    double least_m;
+    VoxelKey key;
+  };
+
+  void AddVoxels(const Block& block) {
+    block.block->occupied.ForEach([&](int index) {
+      const VoxelKey key = VoxelAt(block.key, index);
+      const auto [least_m, most_m] =
+          bounds_.DistanceTo(grid_.CenterOf(key), 0.5 * grid_.resolution_m());
+      if (least_m >= at_most_m_) return;
+      if (most_m < kFar) {
+        at_most_m_ = std::min(at_most_m_, most_m);
+        voxels_.push_back({least_m, key});
+      } else {  // a shape of which bounds do not tell enough
+        nearest_m_ = std::min(nearest_m_, shape_.DistanceTo(grid_.BoxOf(key), nearest_m_));
+        at_most_m_ = std::min(at_most_m_, nearest_m_);
+      }
+    });
   }
-  return nearest_m;
+
+  const VoxelGrid& grid_;
+  const PlacedShape& shape_;
+  const CubeContact bounds_;
+  double nearest_m_;  // of the voxels whose distance is known; above up_to_m without one
+  double at_most_m_;  // what the nearest one's distance cannot exceed
+  std::vector<Block> blocks_;
+  std::vector<Voxel> voxels_;
+};
+
+}  // namespace
+
+// Bounds first, of blocks and then of voxels, as they cost little; distances only of those voxels
+// that may be the nearest.
+double DistanceToOccupied(const VoxelMap& map, const PlacedShape& shape, double up_to_m) {
+  KeyRange keys;
+  if (!KeysTouching(map.grid(), shape.box_F().Padded(up_to_m), keys)) return kFar;
+  OccupiedSearch search(map.grid(), shape, up_to_m);
+  map.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
+                             [&](BlockKey key, const VoxelBlock& block) {
+                               search.AddBlock(key, block);
+                               return false;
+                             });
+  return search.Nearest_m();
 }
 
 // Best first through an implicit octree over all addressable blocks: a region never observed has no

@@ -175,9 +175,12 @@ TEST_P(PreparedMeshTest, CertainAnswersAboutCubesAreRight) {
     const Eigen::Vector3d center = PointNear(Test(), random);
     const double half_m = Test().size_m * random.Uniform(0.02, 0.4);
     const CubeContact::Answer answer = dut.Of(center, half_m);
-    if (answer == CubeContact::Answer::kOpen) continue;
     const double exact_m = BruteDistance(T_G_F * center, T_F_G.rotation.toRotationMatrix(),
                                          Eigen::Vector3d::Constant(half_m));
+    const auto [least_m, most_m] = dut.DistanceTo(center, half_m);
+    EXPECT_LE(least_m, exact_m + kUnsure_m);
+    EXPECT_GE(most_m, exact_m - kUnsure_m);
+    if (answer == CubeContact::Answer::kOpen) continue;
     if (answer == CubeContact::Answer::kNo) {
       EXPECT_GT(exact_m, margin_m - kUnsure_m);
       EXPECT_FALSE(Contains(shape, T_G_F * (center + random.Vector(half_m)))) << "a part of it";

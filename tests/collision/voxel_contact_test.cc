@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "clearway/geometry/hull.h"
 #include "collision/cube_contact.h"
 #include "collision/test_meshes.h"
+#include "collision/voxel_distance.h"
 #include "support/random.h"
 
 namespace clearway {
@@ -44,6 +47,27 @@ TEST(CubeContact, CertainAnswersAreRight) {
   }
 }
 
+TEST(CubeContact, BoundsHoldTheDistance) {
+  Random random(3);
+  for (const Shape& shape : Shapes()) {
+    const ShapeGeometry geometry(shape);
+    int tight = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const PlacedShape placed(geometry, random.AnyPose(0.3));
+      const Eigen::Vector3d center = random.Vector(1.5);
+      const double half_m = random.Uniform(0.01, 0.2);
+      const auto [least_m, most_m] = CubeContact(placed, 0.1).DistanceTo(center, half_m);
+      const double exact_m = placed.DistanceTo({center.array() - half_m, center.array() + half_m},
+                                               std::numeric_limits<double>::infinity());
+      constexpr double kIterated_m = 1e-6;  // what FCL's distances of boxes are good for
+      ASSERT_LE(least_m, exact_m + kIterated_m);
+      ASSERT_GE(most_m, exact_m - kIterated_m);
+      tight += most_m - least_m < half_m;
+    }
+    EXPECT_GT(tight, 18'000);
+  }
+}
+
 class VoxelContactTest : public testing::Test {
  protected:
   VoxelContactTest() {
@@ -66,21 +90,37 @@ class VoxelContactTest : public testing::Test {
     }
     return false;
   }
+  // Of the nearest occupied voxel within 2 m.
+  double Distance(const PlacedShape& shape, double up_to_m) const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    map_.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+      block.occupied.ForEach([&](int i) {
+        nearest_m =
+            std::min(nearest_m, shape.DistanceTo(map_.grid().BoxOf(VoxelAt(key, i)), up_to_m));
+      });
+    });
+    return nearest_m;
+  }
+  // Meshes and hulls too.
+  static std::vector<Shape> AllShapes() {
+    std::vector<Shape> shapes = Shapes();
+    for (const TestMesh& test : TestMeshes()) {
+      if (test.size_m > 1) continue;
+      shapes.push_back(TriangleMesh{test.mesh});
+      Mesh hull = ConvexHullOf(test.mesh->vertices);
+      if (hull.triangles.empty()) continue;
+      shapes.push_back(ConvexPolytope{std::make_shared<const Mesh>(std::move(hull))});
+    }
+    return shapes;
+  }
+
   Random random_{2};
   VoxelMap map_{0.1};
 };
 
 TEST_F(VoxelContactTest, AgreesWithALookAtEveryVoxel) {
   std::array<int, 2> occupied{}, unobserved{};
-  std::vector<Shape> shapes = Shapes();
-  for (const TestMesh& test : TestMeshes()) {
-    if (test.size_m > 1) continue;
-    shapes.push_back(TriangleMesh{test.mesh});
-    Mesh hull = ConvexHullOf(test.mesh->vertices);
-    if (hull.triangles.empty()) continue;
-    shapes.push_back(ConvexPolytope{std::make_shared<const Mesh>(std::move(hull))});
-  }
-  for (const Shape& shape : shapes) {
+  for (const Shape& shape : AllShapes()) {
     const ShapeGeometry geometry(shape, Reuse::kManyQueries);
     const int poses = geometry.prepared() == nullptr ? 60 : 12;
     for (int i = 0; i < poses; ++i) {
@@ -101,6 +141,31 @@ TEST_F(VoxelContactTest, AgreesWithALookAtEveryVoxel) {
   for (const int count : {occupied[0], occupied[1], unobserved[0], unobserved[1]}) {
     EXPECT_GT(count, 10);
   }
+}
+
+TEST_F(VoxelContactTest, DistanceIsThatOfTheNearestVoxel) {
+  int near = 0, beyond = 0;
+  for (const Shape& shape : AllShapes()) {
+    for (const Reuse reuse : {Reuse::kFewQueries, Reuse::kManyQueries}) {
+      const ShapeGeometry geometry(shape, reuse);
+      const int poses = geometry.prepared() == nullptr ? 40 : 12;
+      for (int i = 0; i < poses; ++i) {
+        const PlacedShape placed(geometry, random_.AnyPose(i % 2 == 0 ? 1 : 4));
+        const double up_to_m = random_.Uniform(0, 3);
+        const double expected_m = Distance(placed, up_to_m);
+        const double distance_m = DistanceToOccupied(map_, placed, up_to_m);
+        if (expected_m <= up_to_m) {
+          EXPECT_NEAR(distance_m, expected_m, 1e-6);
+          near += expected_m > 0;
+        } else {
+          EXPECT_GT(distance_m, up_to_m);
+          ++beyond;
+        }
+      }
+    }
+  }
+  EXPECT_GT(near, 100);
+  EXPECT_GT(beyond, 20);
 }
 
 }  // namespace
