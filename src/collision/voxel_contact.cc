@@ -11,20 +11,10 @@ namespace {
 
 constexpr int kOctantSize = kBlockSize / 2;  // voxels along an edge of an eighth of a block
 
-// The voxels of octant x + 2 y + 4 z of a block.
-BlockMask MaskOfOctant(int octant) {
-  constexpr std::uint64_t kLowCorner = 0x0f0f0f0f;
-  const std::uint64_t plane = kLowCorner << 4 * (octant & 1) << 32 * (octant >> 1 & 1);
-  BlockMask mask;
-  for (int z = 0; z < kOctantSize; ++z) mask.words[kOctantSize * (octant >> 2) + z] = plane;
-  return mask;
+// In a layer of a block: the quarter x + 2 y.
+constexpr std::uint64_t Quarter(int number) {
+  return std::uint64_t{0x0f0f0f0f} << kOctantSize * (number & 1) << 32 * (number >> 1);
 }
-
-const std::array<BlockMask, 8> kOctants = [] {
-  std::array<BlockMask, 8> masks;
-  for (int octant = 0; octant < 8; ++octant) masks[octant] = MaskOfOctant(octant);
-  return masks;
-}();
 
 // Asks from large to small: a block, its octants, their voxels.
 class Search {
@@ -34,19 +24,22 @@ class Search {
 
   // Whether one of the block's voxels that are marked touches the shape.
   bool Touches(BlockKey block, const BlockMask& voxels) const {
-    if (!voxels.Any()) return false;
+    const auto& layers = voxels.words;
+    // Of the lower and the upper half.
+    const std::array<std::uint64_t, 2> marked{layers[0] | layers[1] | layers[2] | layers[3],
+                                              layers[4] | layers[5] | layers[6] | layers[7]};
+    if ((marked[0] | marked[1]) == 0) return false;
     constexpr int kFew = 8;  // are asked at once
+    if (AtMost(kFew, voxels)) return TouchesAny(block, voxels, 0, kBlockSize, ~std::uint64_t{0});
     const VoxelKey base = VoxelAt(block, 0);
-    if (AtMost(kFew, voxels)) return TouchesAny(block, voxels);
     for (int octant = 0; octant < 8; ++octant) {
-      BlockMask inside = kOctants[octant];
-      std::uint64_t any = 0;
-      for (int z = 0; z < kBlockSize; ++z) any |= inside.words[z] &= voxels.words[z];
-      if (any == 0) continue;
+      const std::uint64_t quarter = Quarter(octant & 3);
+      const int half = octant >> 2;
+      if ((marked[half] & quarter) == 0) continue;
       const VoxelKey corner{base.x + kOctantSize * (octant & 1),
-                            base.y + kOctantSize * (octant >> 1 & 1),
-                            base.z + kOctantSize * (octant >> 2)};
-      if (!Misses(corner, kOctantSize) && TouchesAny(block, inside)) return true;
+                            base.y + kOctantSize * (octant >> 1 & 1), base.z + kOctantSize * half};
+      if (Misses(corner, kOctantSize)) continue;
+      if (TouchesAny(block, voxels, kOctantSize * half, kOctantSize, quarter)) return true;
     }
     return false;
   }
@@ -55,9 +48,11 @@ class Search {
   bool Misses(BlockKey block) const { return Misses(VoxelAt(block, 0), kBlockSize); }
 
  private:
-  bool TouchesAny(BlockKey block, const BlockMask& voxels) const {
-    for (int z = 0; z < kBlockSize; ++z) {
-      for (std::uint64_t word = voxels.words[z]; word != 0; word &= word - 1) {
+  // Of the marked voxels in some layers, and there in a part.
+  bool TouchesAny(BlockKey block, const BlockMask& voxels, int first_layer, int layers,
+                  std::uint64_t part) const {
+    for (int z = first_layer; z < first_layer + layers; ++z) {
+      for (std::uint64_t word = voxels.words[z] & part; word != 0; word &= word - 1) {
         if (TouchesVoxel(VoxelAt(block, z * 64 + std::countr_zero(word)))) return true;
       }
     }
