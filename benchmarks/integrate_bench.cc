@@ -78,8 +78,8 @@ class Server {
   }
   // Back to empty maps, with the memory of what it has taken.
   void Reset() {
-    held_ = nullptr;
     builder_.Reset();
+    held_ = builder_.Publish();  // so that no scan pays for the end of the maps before
     publishing_ = Milliseconds(0);
   }
 
