@@ -39,17 +39,16 @@ class VoxelReader {
   // Points: all that is known of so many stays in the first cache.
   static constexpr std::size_t kAtOnce = 256;
 
-  // Fills what follows for at most kAtOnce points.
-  void Locate(std::span<const Eigen::Vector3d> points);
-  std::size_t CutIntoRuns(std::size_t count);
+  // Fills what follows for at most kAtOnce points; returns how many runs there are.
+  std::size_t Locate(std::span<const Eigen::Vector3d> points);
 
   const VoxelMap& map_;
-  // Of each point: its voxel, its block as one number, its place there, and its run.
+  // Of each point: its voxel, its place in its block, its run, and for States its state.
   std::vector<VoxelKey> keys_;
-  std::vector<std::uint64_t> block_numbers_;
   std::vector<std::uint32_t> indices_, runs_;
-  // Of each run of points in one block; members are points of it.
-  std::vector<std::uint32_t> members_;
+  std::vector<VoxelState> states_;
+  // Of each run of points in one block: its first point, and the block.
+  std::vector<std::uint32_t> firsts_;
   std::vector<BlockKey> block_keys_;
   std::vector<const VoxelBlock*> blocks_;
 };
