@@ -21,14 +21,19 @@ CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
 // The line or the shape is convex: it lies beyond the plane through its point q nearest to the
 // cube's centre, across the way between the two. So the cube is at least as far as from that plane,
 // and at most as far as from q.
-CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
-                                         double half_edge_m) const {
+CubeContact::Bounds CubeContact::FromCore(const Eigen::Vector3d& to_center_F, double half_edge_m) {
   const Eigen::Array3d gap = to_center_F.array().abs();
   const double distance_m = to_center_F.norm();
-  if (distance_m == 0) return Answer::kYes;
-  if (distance_m - half_edge_m * gap.sum() / distance_m > far_m_) return Answer::kNo;
-  const double at_most_m = (gap - half_edge_m).max(0).matrix().norm();
-  return at_most_m <= near_m_ ? Answer::kYes : Answer::kOpen;
+  if (distance_m == 0) return {0, 0};
+  return {distance_m - half_edge_m * gap.sum() / distance_m,
+          (gap - half_edge_m).max(0).matrix().norm()};
+}
+
+CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
+                                         double half_edge_m) const {
+  const auto [least_m, most_m] = FromCore(to_center_F, half_edge_m);
+  if (least_m > far_m_) return Answer::kNo;
+  return most_m <= near_m_ ? Answer::kYes : Answer::kOpen;
 }
 
 // Two boxes are apart if and only if they are along one of 15 axes: their own and their cross
@@ -93,13 +98,9 @@ CubeContact::Bounds CubeContact::DistanceTo(const Eigen::Vector3d& center_F,
     return {BoxBoxDistance(shape_.box_F(), cube) - kRounding_m,
             std::numeric_limits<double>::infinity()};
   }
-  // As Between.
-  const Eigen::Array3d gap = to_center_F->array().abs();
-  const double distance_m = to_center_F->norm();
-  const double to_plane_m = distance_m > 0 ? distance_m - half_edge_m * gap.sum() / distance_m : 0;
-  const double to_point_m = (gap - half_edge_m).max(0).matrix().norm();
-  return {std::max(to_plane_m - radius_m_, 0.0) - kRounding_m,
-          std::max(to_point_m - radius_m_, 0.0) + kRounding_m};
+  const auto [least_m, most_m] = FromCore(*to_center_F, half_edge_m);
+  return {std::max(least_m - radius_m_, 0.0) - kRounding_m,
+          std::max(most_m - radius_m_, 0.0) + kRounding_m};
 }
 
 // As OfMesh.

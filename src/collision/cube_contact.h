@@ -61,6 +61,9 @@ class CubeContact {
     const auto answer = ByBalls(to_center_F.squaredNorm(), half_edge_m);
     return answer ? *answer : Between(to_center_F, half_edge_m);
   }
+  // The distance of a cube from the line or the shape, where its centre is so far from the nearest
+  // point.
+  static Bounds FromCore(const Eigen::Vector3d& to_center_F, double half_edge_m);
   Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;

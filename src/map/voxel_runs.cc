@@ -1,6 +1,6 @@
 #include "map/voxel_runs.h"
 
-#include "map/window_walk.h"
+#include "map/avx512.h"
 
 namespace clearway {
 namespace {

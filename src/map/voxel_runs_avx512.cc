@@ -1,15 +1,11 @@
 #include "map/voxel_runs.h"
 
 #ifdef __x86_64__
-// GCC 12 takes the undefined registers of its own header for a fault, https://gcc.gnu.org/PR105593.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <immintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#define CLEARWAY_AVX512 __attribute__((target("avx512f,avx512vl,popcnt")))
+#include "map/avx512_functions.h"
 
 namespace clearway {
 namespace {

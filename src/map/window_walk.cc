@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "map/avx512.h"
+
 namespace clearway {
 namespace {
 

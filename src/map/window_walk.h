@@ -29,7 +29,6 @@ void WalkWindowPortable(std::span<const WindowRays> rays, std::uint32_t* words);
 // Many rays at a time: the next step of one does not wait for that of another. Only for processors
 // of which HasAvx512() is true.
 void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words);
-bool HasAvx512();
 
 // The fastest one for this processor.
 WindowWalk FastestWindowWalk();

@@ -1,14 +1,9 @@
 #include "map/window_walk.h"
 
 #ifdef __x86_64__
-// GCC 12 takes the undefined registers of its own header for a fault, https://gcc.gnu.org/PR105593.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <immintrin.h>
-
 #include <cstddef>
 
-// On functions, not on the file: what the linker shares with other files must run everywhere.
-#define CLEARWAY_AVX512 __attribute__((target("avx512f,avx512vl")))
+#include "map/avx512_functions.h"
 
 namespace clearway {
 namespace {
@@ -141,8 +136,6 @@ void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   if (!rays.empty()) Walk(rays, words);
 }
 
-bool HasAvx512() { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"); }
-
 }  // namespace clearway
 
 #else
@@ -152,7 +145,6 @@ namespace clearway {
 void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   WalkWindowPortable(rays, words);
 }
-bool HasAvx512() { return false; }
 
 }  // namespace clearway
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "map/window_walk.h"
+#include "map/avx512.h"
 #include "support/random.h"
 
 namespace clearway {

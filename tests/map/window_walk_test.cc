@@ -5,6 +5,7 @@
 #include <set>
 
 #include "clearway/map/ray.h"
+#include "map/avx512.h"
 #include "map/bit_window.h"
 #include "map/ray_lanes.h"
 #include "support/random.h"
