@@ -65,9 +65,10 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 // Takes frames and publishes a version after each, while a reader still holds the one before.
-class Server {
+class Integrator {
  public:
-  Server(const SceneParams& params, int threads) : pool_(threads), builder_(params, {}, pool_) {}
+  Integrator(const SceneParams& params, int threads)
+      : pool_(threads), builder_(params, {}, pool_) {}
 
   void Take(const Frame& frame) {
     if (!builder_.Apply(frame).ok()) throw std::runtime_error("a frame was refused");
@@ -94,10 +95,10 @@ class Server {
 };
 
 // Has taken the frames once: what a process pays for its first scans alone is not counted.
-std::unique_ptr<Server> WarmServer(const Input& input, bool discretize, int threads) {
-  auto server = std::make_unique<Server>(ParamsFor(input, discretize), threads);
-  for (const Frame& frame : input.frames) server->Take(frame);
-  return server;
+std::unique_ptr<Integrator> WarmIntegrator(const Input& input, bool discretize, int threads) {
+  auto integrator = std::make_unique<Integrator>(ParamsFor(input, discretize), threads);
+  for (const Frame& frame : input.frames) integrator->Take(frame);
+  return integrator;
 }
 
 struct Cost {
@@ -106,22 +107,22 @@ struct Cost {
 };
 
 Cost Clearway(benchmark::State& state, const Input& input, bool discretize) {
-  const std::unique_ptr<Server> server = WarmServer(input, discretize, 1);
+  const std::unique_ptr<Integrator> integrator = WarmIntegrator(input, discretize, 1);
   for (auto _ : state) {
-    server->Reset();
-    for (const Frame& frame : input.frames) server->Take(frame);
+    integrator->Reset();
+    for (const Frame& frame : input.frames) integrator->Take(frame);
   }
-  return {server->publish_ms(), MapsMb(server->scene())};
+  return {integrator->publish_ms(), MapsMb(integrator->scene())};
 }
 
 // Milliseconds a scan takes, over a few rounds.
-double ScanMs(Server& server, const Input& input) {
+double ScanMs(Integrator& integrator, const Input& input) {
   constexpr int kRounds = 5;
   Milliseconds spent(0);
   for (int round = 0; round < kRounds; ++round) {
-    server.Reset();
+    integrator.Reset();
     const auto begin = Clock::now();
-    for (const Frame& frame : input.frames) server.Take(frame);
+    for (const Frame& frame : input.frames) integrator.Take(frame);
     spent += Clock::now() - begin;
   }
   return spent.count() / (kRounds * static_cast<double>(input.frames.size()));
@@ -129,7 +130,7 @@ double ScanMs(Server& server, const Input& input) {
 
 // The same scans with one thread and with two, in turn: what disturbs one disturbs the other.
 void OneAndTwoThreads(benchmark::State& state, const Input& input) {
-  const auto one = WarmServer(input, false, 1), two = WarmServer(input, false, 2);
+  const auto one = WarmIntegrator(input, false, 1), two = WarmIntegrator(input, false, 2);
   for (auto _ : state) {
     state.counters["scan_1thread_ms"] = ScanMs(*one, input);
     state.counters["scan_2threads_ms"] = ScanMs(*two, input);
