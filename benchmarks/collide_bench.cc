@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "clearway/collision/scene_checker.h"
 #include "drive_map.h"
@@ -15,6 +16,7 @@ namespace clearway::bench {
 namespace {
 
 constexpr double kClearance_m = 2;
+constexpr double kTurn_s = 0.1;  // of one benchmark, before another's
 
 struct Case {
   std::shared_ptr<const FclChecker> fcl;
@@ -58,7 +60,7 @@ CheckOptions UnknownIsFree() {
 // Sets how many answers differ from FCL's.
 void Collide(benchmark::State& state, const std::string& name, const Case& c) {
   std::vector<StateAnswer> answers;
-  for (auto _ : state) answers = c.checker->Check(c.states, UnknownIsFree())->answers;
+  for (auto _ : state) answers = std::move(*c.checker->Check(c.states, UnknownIsFree())).answers;
   double differing = 0;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     differing += (answers[i].status == SpaceStatus::kFree) != (i >= c.free_from);
@@ -82,7 +84,7 @@ void Clearance(benchmark::State& state, const Case& c, std::size_t count) {
   CheckOptions options = UnknownIsFree();
   options.clearance_up_to_m = kClearance_m;
   std::vector<StateAnswer> answers;
-  for (auto _ : state) answers = c.checker->Check(free, options)->answers;
+  for (auto _ : state) answers = std::move(*c.checker->Check(free, options)).answers;
   double error_m = 0;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const double expected_m = std::min(kClearance_m, c.fcl->Distance(free.T_W_L[i]));
@@ -128,7 +130,8 @@ void Register(const Effort& effort) {
   const auto add = [&](const std::string& name, const auto& run) {
     benchmark::RegisterBenchmark(name.c_str(), run)
         ->Unit(benchmark::kMillisecond)
-        ->Repetitions(effort.repetitions())
+        ->MinTime(kTurn_s)
+        ->Repetitions(3 * effort.repetitions())
         ->ReportAggregatesOnly();
   };
   for (const auto& [name, shape] : BenchShapes()) {
@@ -161,5 +164,6 @@ int main(int argc, char** argv) {
                                 {"collide_sphere_vs_fcl_x", "fcl_sphere", "clearway_sphere"},
                                 {"collide_capsule_vs_fcl_x", "fcl_capsule", "clearway_capsule"},
                                 {"collide_mesh_vs_fcl_x", "fcl_mesh", "clearway_mesh"},
-                                {"clearance_vs_fcl_x", "fcl_clearance", "clearway_clearance"}});
+                                {"clearance_vs_fcl_x", "fcl_clearance", "clearway_clearance"}},
+                               clearway::bench::Order::kInTurns);
 }

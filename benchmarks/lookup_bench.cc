@@ -10,6 +10,8 @@
 namespace clearway::bench {
 namespace {
 
+constexpr double kTurn_s = 0.1;  // of one benchmark, before another's
+
 using Points = std::vector<Eigen::Vector3d>;
 
 Points RandomPoints(const Aabb& box_W, std::size_t count) {
@@ -80,7 +82,8 @@ void Register(const Effort& effort) {
   const auto add = [&](const std::string& name, auto run, const Points& points) {
     benchmark::RegisterBenchmark(name.c_str(), [=](auto& state) { run(state, *drive, points); })
         ->Unit(benchmark::kMillisecond)
-        ->Repetitions(effort.repetitions())
+        ->MinTime(kTurn_s)
+        ->Repetitions(3 * effort.repetitions())
         ->ReportAggregatesOnly();
   };
   const Points random = RandomPoints(all_W, 1'000'000), lines = PointsOnLines(all_W, 100'000);
@@ -109,5 +112,6 @@ int main(int argc, char** argv) {
       {{"lookup_random_vs_octomap_x", "octomap_random", "clearway_random"},
        {"lookup_coherent_vs_octomap_x", "octomap_coherent", "clearway_coherent"},
        {"lookup_fused_cost_x", "fused_status", "static_status"},
-       {"lookup_fused_among_cost_x", "fused_status_among", "static_status"}});
+       {"lookup_fused_among_cost_x", "fused_status_among", "static_status"}},
+      clearway::bench::Order::kInTurns);
 }

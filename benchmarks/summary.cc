@@ -76,9 +76,14 @@ void AddToSummary(const std::filesystem::path& folder, const nlohmann::json& num
 }  // namespace
 
 int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
-         const std::vector<Ratio>& ratios) {
+         const std::vector<Ratio>& ratios, Order order) {
   const Flags flags = TakeFlags(argc, argv);
   register_all(flags.effort);
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string in_turns = "--benchmark_enable_random_interleaving=true";
+  if (order == Order::kInTurns) arguments.insert(arguments.begin() + 1, in_turns.data());
+  argc = static_cast<int>(arguments.size());
+  argv = arguments.data();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   MedianReporter reporter;

@@ -21,12 +21,16 @@ struct Ratio {
   std::string under;
 };
 
+// Whether all repetitions of a benchmark run before another's, or in a random order with the others',
+// so that a machine that is slow for a while is so to all of them. Those must not need each other.
+enum class Order { kOneByOne, kInTurns };
+
 // Reads --quick and --out DIR (by default benchmarks/out in the source tree) and Google Benchmark's
 // own flags; calls `register_all`, runs the benchmarks in turn, prints them and the ratios, and
 // writes the ratios, and the medians of the benchmarks' own counters under the counters' names,
 // into DIR/summary.json, a flat object that keeps other programs' numbers. Returns the program's
 // exit code: 1 if a benchmark failed.
 int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
-         const std::vector<Ratio>& ratios);
+         const std::vector<Ratio>& ratios, Order order = Order::kOneByOne);
 
 }  // namespace clearway::bench

@@ -29,11 +29,14 @@ CubeContact::Bounds CubeContact::FromCore(const Eigen::Vector3d& to_center_F, do
           (gap - half_edge_m).max(0).matrix().norm()};
 }
 
+// As FromCore, with neither a division nor the second root.
 CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
                                          double half_edge_m) const {
-  const auto [least_m, most_m] = FromCore(to_center_F, half_edge_m);
-  if (least_m > far_m_) return Answer::kNo;
-  return most_m <= near_m_ ? Answer::kYes : Answer::kOpen;
+  const Eigen::Array3d gap = to_center_F.array().abs();
+  const double squared = to_center_F.squaredNorm();
+  if (squared - half_edge_m * gap.sum() > far_m_ * std::sqrt(squared)) return Answer::kNo;
+  const double most_squared = (gap - half_edge_m).max(0).matrix().squaredNorm();
+  return most_squared <= near_m_ * near_m_ ? Answer::kYes : Answer::kOpen;
 }
 
 // Two boxes are apart if and only if they are along one of 15 axes: their own and their cross

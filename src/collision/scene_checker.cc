@@ -42,7 +42,7 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   StateCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
   for (std::size_t s = 0; s < states.times.size(); ++s) {
-    reply.answers[s] = check.Answer(states.times[s], &states.T_W_L[s * links]);
+    check.Answer(states.times[s], &states.T_W_L[s * links], reply.answers[s]);
     if (cancelled()) return absl::CancelledError("the check was cancelled");
   }
   return reply;

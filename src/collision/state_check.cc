@@ -26,9 +26,12 @@ void StateCheck::Place(const Pose* T_W_L) {
   for (std::size_t link = 0; link < robot_.links().size(); ++link) {
     first_shapes_.push_back(shapes_W_.size());
     const Pose& T_W_link = T_W_L[link];
-    for (const RobotGeometry::Part& part : robot_.links()[link]) {
-      shapes_W_.emplace_back(part.geometry,
-                             part.T_L_G ? Normalized(T_W_link) * *part.T_L_G : T_W_link);
+    for (const auto& [geometry, T_L_G] : robot_.links()[link]) {
+      if (T_L_G) {
+        shapes_W_.emplace_back(geometry, Normalized(T_W_link) * *T_L_G);
+      } else {
+        shapes_W_.emplace_back(geometry, T_W_link);
+      }
     }
   }
   first_shapes_.push_back(shapes_W_.size());
@@ -45,85 +48,82 @@ std::span<const PlacedShape> StateCheck::ShapesOf(int link) const {
                                       first_shapes_[link + 1] - first_shapes_[link]);
 }
 
-StateAnswer StateCheck::Answer(Time time, const Pose* T_W_L) {
+void StateCheck::Answer(Time time, const Pose* T_W_L, StateAnswer& answer) {
   Place(T_W_L);
-  StateAnswer answer;
-  const auto conclude = [&](SpaceStatus status, const std::optional<Touch>& touch) {
-    answer.status = status;
-    answer.link = touch ? touch->link : -1;
-    answer.object = touch ? touch->object : kStaticLabel;
-  };
-  if (const auto touch = OutOfBounds()) {
-    conclude(SpaceStatus::kOutOfBounds, touch);
+  answer = {};
+  if (OutOfBounds(answer)) {
+    answer.status = SpaceStatus::kOutOfBounds;
     if (context_.options.NeedsUnknownFraction()) answer.unknown_fraction = 1;
     if (context_.options.clearance_up_to_m) answer.clearance_m = 0;
-    return answer;
+    return;
   }
   objects_ = &context_.objects.Near(SearchedBox(), time);
   if (context_.options.NeedsUnknownFraction()) answer.unknown_fraction = UnknownShare();
-  if (const auto occupied = Occupied()) {
-    conclude(SpaceStatus::kOccupied, occupied);
-  } else if (const auto beyond = BeyondHorizon()) {
-    conclude(SpaceStatus::kBeyondHorizon, beyond);
-  } else if (const auto unknown = Unobserved()) {
-    conclude(SpaceStatus::kUnknownSpace, unknown);
-  } else if (context_.options.unknown == UnknownPolicy::kTolerated &&
-             *answer.unknown_fraction > context_.options.max_unknown_fraction) {
-    conclude(SpaceStatus::kUnknownSpace, Touch{0, kStaticLabel});
-  } else {
-    conclude(SpaceStatus::kFree, std::nullopt);
-  }
+  answer.status = Status(answer);
   if (context_.options.clearance_up_to_m) answer.clearance_m = Clearance();
-  return answer;
 }
 
-std::optional<StateCheck::Touch> StateCheck::OutOfBounds() const {
+SpaceStatus StateCheck::Status(StateAnswer& answer) const {
+  const CheckOptions& options = context_.options;
+  if (Occupied(answer)) return SpaceStatus::kOccupied;
+  if (!objects_->empty() && BeyondHorizon(answer)) return SpaceStatus::kBeyondHorizon;
+  if (options.unknown == UnknownPolicy::kBlocked && Unobserved(answer)) {
+    return SpaceStatus::kUnknownSpace;
+  }
+  if (options.unknown == UnknownPolicy::kTolerated &&
+      *answer.unknown_fraction > options.max_unknown_fraction) {
+    return Touched(0, kStaticLabel, answer), SpaceStatus::kUnknownSpace;
+  }
+  return SpaceStatus::kFree;
+}
+
+bool StateCheck::OutOfBounds(StateAnswer& answer) const {
   for (int link = 0; link < links(); ++link) {
     for (const PlacedShape& shape : ShapesOf(link)) {
       const Aabb& box_W = shape.box_F();
       if (bounds_W_.Contains(box_W.min) && bounds_W_.Contains(box_W.max)) continue;
-      return Touch{link, kStaticLabel};
+      return Touched(link, kStaticLabel, answer);
     }
   }
-  return std::nullopt;
+  return false;
 }
 
-std::optional<StateCheck::Touch> StateCheck::Occupied() const {
+bool StateCheck::Occupied(StateAnswer& answer) const {
   for (int link = 0; link < links(); ++link) {
-    if (!Allowed(link, kStaticLabel) && TouchesStatic(link)) return Touch{link, kStaticLabel};
+    if (!Allowed(link, kStaticLabel) && TouchesStatic(link)) {
+      return Touched(link, kStaticLabel, answer);
+    }
     for (const PlacedObject& object : *objects_) {
       if (!object.ball_radius_m && TouchesObject(link, object)) {
-        return Touch{link, object.object->id};
+        return Touched(link, object.object->id, answer);
       }
     }
   }
-  return std::nullopt;
+  return false;
 }
 
-std::optional<StateCheck::Touch> StateCheck::BeyondHorizon() const {
+bool StateCheck::BeyondHorizon(StateAnswer& answer) const {
   for (int link = 0; link < links(); ++link) {
     for (const PlacedObject& object : *objects_) {
       if (object.ball_radius_m && TouchesObject(link, object)) {
-        return Touch{link, object.object->id};
+        return Touched(link, object.object->id, answer);
       }
     }
   }
-  return std::nullopt;
+  return false;
 }
 
-std::optional<StateCheck::Touch> StateCheck::Unobserved() const {
-  if (context_.options.unknown != UnknownPolicy::kBlocked) return std::nullopt;
+bool StateCheck::Unobserved(StateAnswer& answer) const {
   const VoxelMap& map = context_.scene.static_map_W;
-  const double padding_m = context_.options.padding_m;
   for (int link = 0; link < links(); ++link) {
     for (const PlacedShape& shape : ShapesOf(link)) {
-      if (TouchesUnobserved(map, shape, context_.options.known_free_W, padding_m,
+      if (TouchesUnobserved(map, shape, context_.options.known_free_W, context_.options.padding_m,
                             context_.cancelled)) {
-        return Touch{link, kStaticLabel};
+        return Touched(link, kStaticLabel, answer);
       }
     }
   }
-  return std::nullopt;
+  return false;
 }
 
 double StateCheck::UnknownShare() const {

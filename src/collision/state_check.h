@@ -29,24 +29,28 @@ class StateCheck {
  public:
   StateCheck(const CheckContext& context, const RobotGeometry& robot);
 
-  // The whole rule, in the order of precedence of SpaceStatus. T_W_L: one pose per link.
-  StateAnswer Answer(Time time, const Pose* T_W_L);
+  // The whole rule. T_W_L: one pose per link. The answer is written where it is to stay: a copy
+  // would wait until what was just written can be read back.
+  void Answer(Time time, const Pose* T_W_L, StateAnswer& answer);
 
  private:
-  struct Touch {
-    int link;
-    ObjectId object;
-  };
-
   void Place(const Pose* T_W_L);
   Aabb SearchedBox() const;  // what lies beyond does not matter to the answer
   std::span<const PlacedShape> ShapesOf(int link) const;
   int links() const { return static_cast<int>(robot_.links().size()); }
 
-  std::optional<Touch> OutOfBounds() const;
-  std::optional<Touch> Occupied() const;
-  std::optional<Touch> BeyondHorizon() const;
-  std::optional<Touch> Unobserved() const;
+  // In the order of precedence of SpaceStatus, within bounds; as those below, it names in `answer`
+  // what made it so.
+  SpaceStatus Status(StateAnswer& answer) const;
+  bool OutOfBounds(StateAnswer& answer) const;
+  bool Occupied(StateAnswer& answer) const;
+  bool BeyondHorizon(StateAnswer& answer) const;
+  bool Unobserved(StateAnswer& answer) const;
+  static bool Touched(int link, ObjectId object, StateAnswer& answer) {
+    answer.link = link;
+    answer.object = object;
+    return true;
+  }
   double UnknownShare() const;
   double Clearance() const;
 

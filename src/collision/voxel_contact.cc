@@ -16,6 +16,14 @@ constexpr std::uint64_t Quarter(int number) {
   return std::uint64_t{0x0f0f0f0f} << kOctantSize * (number & 1) << 32 * (number >> 1);
 }
 
+// std::popcount is a call where the processor's own instruction may not be used.
+int CountOf(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555'5555'5555'5555;
+  bits = (bits & 0x3333'3333'3333'3333) + (bits >> 2 & 0x3333'3333'3333'3333);
+  bits = (bits + (bits >> 4)) & 0x0f0f'0f0f'0f0f'0f0f;
+  return static_cast<int>(bits * 0x0101'0101'0101'0101 >> 56);
+}
+
 // Asks from large to small: a block, its octants, their voxels.
 class Search {
  public:
@@ -24,22 +32,27 @@ class Search {
 
   // Whether one of the block's voxels that are marked touches the shape.
   bool Touches(BlockKey block, const BlockMask& voxels) const {
-    const auto& layers = voxels.words;
-    // Of the lower and the upper half.
-    const std::array<std::uint64_t, 2> marked{layers[0] | layers[1] | layers[2] | layers[3],
-                                              layers[4] | layers[5] | layers[6] | layers[7]};
-    if ((marked[0] | marked[1]) == 0) return false;
-    constexpr int kFew = 8;  // are asked at once
-    if (AtMost(kFew, voxels)) return TouchesAny(block, voxels, 0, kBlockSize, ~std::uint64_t{0});
+    unsigned layers = 0;        // bit z: whether a voxel of that layer is marked
+    std::uint64_t columns = 0;  // those in which one is
+    for (int z = 0; z < kBlockSize; ++z) {
+      layers |= static_cast<unsigned>(voxels.words[z] != 0) << z;
+      columns |= voxels.words[z];
+    }
+    if (layers == 0) return false;
+    constexpr int kFew = 128;  // are asked at once
+    if (CountOf(columns) * CountOf(layers) <= kFew) {
+      return TouchesAny(block, voxels, layers, ~std::uint64_t{0});
+    }
     const VoxelKey base = VoxelAt(block, 0);
     for (int octant = 0; octant < 8; ++octant) {
       const std::uint64_t quarter = Quarter(octant & 3);
       const int half = octant >> 2;
-      if ((marked[half] & quarter) == 0) continue;
+      const unsigned layers_of_half = layers & 0xfu << kOctantSize * half;
+      if (layers_of_half == 0 || (columns & quarter) == 0) continue;
       const VoxelKey corner{base.x + kOctantSize * (octant & 1),
                             base.y + kOctantSize * (octant >> 1 & 1), base.z + kOctantSize * half};
       if (Misses(corner, kOctantSize)) continue;
-      if (TouchesAny(block, voxels, kOctantSize * half, kOctantSize, quarter)) return true;
+      if (TouchesAny(block, voxels, layers_of_half, quarter)) return true;
     }
     return false;
   }
@@ -49,9 +62,10 @@ class Search {
 
  private:
   // Of the marked voxels in some layers, and there in a part.
-  bool TouchesAny(BlockKey block, const BlockMask& voxels, int first_layer, int layers,
+  bool TouchesAny(BlockKey block, const BlockMask& voxels, unsigned layers,
                   std::uint64_t part) const {
-    for (int z = first_layer; z < first_layer + layers; ++z) {
+    for (; layers != 0; layers &= layers - 1) {
+      const int z = std::countr_zero(layers);
       for (std::uint64_t word = voxels.words[z] & part; word != 0; word &= word - 1) {
         if (TouchesVoxel(VoxelAt(block, z * 64 + std::countr_zero(word)))) return true;
       }
@@ -67,15 +81,6 @@ class Search {
         return true;
       case CubeContact::Answer::kOpen:
         return shape_.DistanceTo(grid_.BoxOf(key), margin_m_) <= margin_m_;
-    }
-    return true;
-  }
-
-  static bool AtMost(int count, const BlockMask& voxels) {
-    for (std::uint64_t word : voxels.words) {
-      for (; word != 0; word &= word - 1) {
-        if (--count < 0) return false;
-      }
     }
     return true;
   }
