@@ -21,8 +21,9 @@ struct Ratio {
   std::string under;
 };
 
-// Whether all repetitions of a benchmark run before another's, or in a random order with the others',
-// so that a machine that is slow for a while is so to all of them. Those must not need each other.
+// Whether all repetitions of a benchmark run before those of another, or in a random order with
+// theirs, so that a machine that is slow for a while is so to all of them. The latter must not need
+// each other.
 enum class Order { kOneByOne, kInTurns };
 
 // Reads --quick and --out DIR (by default benchmarks/out in the source tree) and Google Benchmark's

@@ -7,7 +7,7 @@ namespace clearway {
 inline bool HasAvx512() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("popcnt");
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("popcnt");
 #else
   return false;
 #endif

@@ -6,4 +6,4 @@
 #include <immintrin.h>
 
 // On functions, not on the file: what the linker shares with other files must run everywhere.
-#define CLEARWAY_AVX512 __attribute__((target("avx512f,avx512vl,popcnt")))
+#define CLEARWAY_AVX512 __attribute__((target("avx512f,avx512vl,avx512bw,popcnt")))

@@ -1,6 +1,7 @@
-// Voxels in a row that lie in one block.
+// Points in a row that lie in one block.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,26 +10,27 @@
 
 namespace clearway {
 
-// How many values more than there are voxels each output must have room for.
-inline constexpr std::size_t kRunsRoom = 8;
+// For how many points at most a kernel is asked, and how many values more than there are points
+// each array must have room for.
+inline constexpr std::size_t kRunsAtOnce = 256, kRunsRoom = 32;
 
-// Says of `count` keys where their voxels lie: indices[i] is the place of keys[i] in its block, and
-// runs[i] the run, from 0 on, of voxels in one block that it belongs to; firsts[r] is the first
-// voxel of run r. Returns how many runs there are.
-using CutRuns = std::size_t (*)(const VoxelKey* keys, std::size_t count, std::uint32_t* indices,
-                                std::uint32_t* runs, std::uint32_t* firsts);
+// Says of `count` points, as KeyOf, where their voxels lie: indices[i] is the place of that of
+// points[i] in its block; firsts[r] is the first point of run r, of points in a row that lie in
+// blocks[r], and the end of the run before. Returns how many runs there are.
+using CutRuns = std::size_t (*)(const VoxelGrid& grid, const Eigen::Vector3d* points,
+                                std::size_t count, std::uint16_t* indices, std::uint32_t* firsts,
+                                BlockKey* blocks);
 
 // The states of those voxels, where blocks[r] is the block of run r; none may be null.
 using ReadRuns = void (*)(const VoxelBlock* const* blocks, const std::uint32_t* firsts,
-                          std::size_t run_count, const std::uint32_t* indices, std::size_t count,
-                          VoxelState* states);
+                          std::size_t run_count, const std::uint16_t* indices, VoxelState* states);
 
 struct RunKernels {
   CutRuns cut;
   ReadRuns read;
 };
 RunKernels PortableRunKernels();
-// Eight voxels at a time. Only for processors of which HasAvx512() is true.
+// Eight points at a time and more. Only for processors of which HasAvx512() is true.
 RunKernels Avx512RunKernels();
 // The fastest ones for this processor.
 RunKernels FastestRunKernels();

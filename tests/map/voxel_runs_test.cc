@@ -24,19 +24,27 @@ class VoxelRunsTest : public testing::TestWithParam<Case> {
     if (!GetParam().available()) GTEST_SKIP() << "not on this processor";
   }
 
-  // Cuts the keys into runs and reads their states, of which every voxel has one of its own.
+  // Cuts points in these voxels into runs and reads their states, of which every voxel has one of
+  // its own.
   void ExpectRight(const std::vector<VoxelKey>& keys) {
+    std::vector<Eigen::Vector3d> points;
+    for (const VoxelKey& key : keys) points.push_back(grid_.CenterOf(key));
     const std::size_t room = keys.size() + kRunsRoom;
-    std::vector<std::uint32_t> indices(room), runs(room), firsts(room);
-    const std::size_t count = GetParam().kernels.cut(keys.data(), keys.size(), indices.data(),
-                                                     runs.data(), firsts.data());
-    std::vector<std::uint32_t> begins;
+    std::vector<std::uint16_t> indices(room);
+    std::vector<std::uint32_t> firsts(room);
+    std::vector<BlockKey> block_keys(room);
+    const std::size_t count = GetParam().kernels.cut(
+        grid_, points.data(), points.size(), indices.data(), firsts.data(), block_keys.data());
+    std::vector<std::uint32_t> begins, runs;
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
       if (i == 0 || BlockOf(keys[i]) != BlockOf(keys[i - 1])) begins.push_back(i);
-      ASSERT_EQ(indices[i], static_cast<std::uint32_t>(IndexInBlock(keys[i]))) << i;
-      ASSERT_EQ(runs[i], begins.size() - 1) << i;
+      runs.push_back(static_cast<std::uint32_t>(begins.size()) - 1);
+      ASSERT_EQ(indices[i], IndexInBlock(keys[i])) << i;
+      ASSERT_EQ(block_keys[runs[i]], BlockOf(keys[i])) << i;
     }
     ASSERT_EQ(std::vector(firsts.begin(), firsts.begin() + count), begins);
+    if (keys.empty()) return;
+    ASSERT_EQ(firsts[count], keys.size());
 
     std::vector<VoxelBlock> blocks(count);
     std::vector<const VoxelBlock*> of_runs;
@@ -49,13 +57,13 @@ class VoxelRunsTest : public testing::TestWithParam<Case> {
       of_runs.push_back(&block);
     }
     std::vector<VoxelState> states(room);
-    GetParam().kernels.read(of_runs.data(), firsts.data(), count, indices.data(), keys.size(),
-                            states.data());
+    GetParam().kernels.read(of_runs.data(), firsts.data(), count, indices.data(), states.data());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       ASSERT_EQ(states[i], blocks[runs[i]].State(IndexInBlock(keys[i]))) << i;
     }
   }
 
+  const VoxelGrid grid_{0.1};
   Random random_{1};
 };
 

@@ -67,6 +67,7 @@ class VoxelGrid {
       : resolution_m_(resolution_m), voxels_per_m_(1.0 / resolution_m) {}
 
   double resolution_m() const { return resolution_m_; }
+  double voxels_per_m() const { return voxels_per_m_; }
   // The largest coordinate that every point of the grid may have, in metres.
   double limit_m() const { return resolution_m_ * (kMaxVoxelIndex - 1); }
 

@@ -28,9 +28,11 @@ class VoxelReader {
   void ForEach(std::span<const Eigen::Vector3d> points, Visit&& visit) {
     for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, points.size() - begin);
-      Locate(points.subspan(begin, count));
-      for (std::size_t i = 0; i < count; ++i) {
-        visit(begin + i, *blocks_[runs_[i]], static_cast<int>(indices_[i]));
+      const std::size_t runs = Locate(points.subspan(begin, count));
+      for (std::size_t r = 0; r < runs; ++r) {
+        for (std::size_t i = firsts_[r]; i < firsts_[r + 1]; ++i) {
+          visit(begin + i, *blocks_[r], static_cast<int>(indices_[i]));
+        }
       }
     }
   }
@@ -43,11 +45,10 @@ class VoxelReader {
   std::size_t Locate(std::span<const Eigen::Vector3d> points);
 
   const VoxelMap& map_;
-  // Of each point: its voxel, its place in its block, its run, and for States its state.
-  std::vector<VoxelKey> keys_;
-  std::vector<std::uint32_t> indices_, runs_;
+  // Of each point: its voxel's place in its block, and for States its state.
+  std::vector<std::uint16_t> indices_;
   std::vector<VoxelState> states_;
-  // Of each run of points in one block: its first point, and the block.
+  // Of each run of points in one block: its first point and, beyond the last, the end; the block.
   std::vector<std::uint32_t> firsts_;
   std::vector<BlockKey> block_keys_;
   std::vector<const VoxelBlock*> blocks_;
