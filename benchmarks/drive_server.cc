@@ -41,10 +41,10 @@ Drive::Drive() {
   }
 }
 
-Frame Drive::Next() {
+const Frame& Drive::Next() {
   const std::size_t turn = std::max<std::size_t>(1, 2 * (frames_.size() - 1));
   const std::size_t place = next_ % turn;
-  Frame frame = frames_[std::min(place, turn - place)];
+  Frame& frame = frames_[std::min(place, turn - place)];
   frame.sequence = next_;
   frame.stamp = frames_[0].stamp + static_cast<std::int64_t>(next_) * kPeriod;
   ++next_;

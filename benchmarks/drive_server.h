@@ -17,8 +17,8 @@ namespace clearway::bench {
 class Drive {
  public:
   Drive();
-  // 0.1 s after the one before.
-  Frame Next();
+  // 0.1 s after the one before. Valid until the next call.
+  const Frame& Next();
 
  private:
   std::vector<Frame> frames_;

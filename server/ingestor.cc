@@ -1,10 +1,9 @@
 #include "server/ingestor.h"
 
-#include <sys/resource.h>
-
 #include <exception>
 
 #include "absl/strings/str_cat.h"
+#include "server/thread_priority.h"
 #include "spdlog/spdlog.h"
 #include "wire/status.h"
 
@@ -139,15 +138,13 @@ Ingestor::Answer Ingestor::Do(Job& job) {
 
 // Gives the threads that apply frames a smaller share of a busy machine: who asks waits for an
 // answer, while a frame that comes late is only late.
-void Ingestor::Yield() {
-  pool_.ParallelFor(pool_.threads(), [this](int, std::size_t, std::size_t) {
-    // Of the calling thread alone, on Linux. Fails only if the threads are nicer already.
-    (void)setpriority(PRIO_PROCESS, 0, options_.niceness);
-  });
+void Ingestor::YieldThreads() {
+  pool_.ParallelFor(pool_.threads(),
+                    [this](int, std::size_t, std::size_t) { Yield(options_.niceness); });
 }
 
 void Ingestor::Run() {
-  Yield();
+  YieldThreads();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return draining_ || !queue_.empty(); });

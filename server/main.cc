@@ -8,6 +8,7 @@
 
 #include "server/config.h"
 #include "server/server.h"
+#include "server/thread_priority.h"
 #include "spdlog/sinks/stdout_color_sinks.h"
 #include "spdlog/spdlog.h"
 
@@ -31,6 +32,7 @@ sigset_t BlockSignals() {
 
 int Serve(const ServerConfig& config) {
   const sigset_t signals = BlockSignals();
+  PreferShortTurns();  // of the threads that answer; those that apply frames yield
   absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config);
   if (!server.ok()) {
     spdlog::error("{}", std::string(server.status().message()));

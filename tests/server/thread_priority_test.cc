@@ -1,0 +1,62 @@
+#include "server/thread_priority.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <thread>
+
+namespace clearway {
+namespace {
+
+// Of the calling thread, as the kernel tells it; 0 before Linux 6.12.
+std::uint64_t Turn_ns() {
+  std::array<std::uint64_t, 8> attributes{};
+  constexpr std::size_t kRuntime = 3;  // in sched_attr, in words of eight bytes
+  EXPECT_EQ(syscall(SYS_sched_getattr, 0, attributes.data(), sizeof attributes, 0), 0);
+  return attributes[kRuntime];
+}
+
+int Niceness() { return getpriority(PRIO_PROCESS, 0); }  // of the calling thread, on Linux
+
+TEST(ThreadPriority, ShortTurnsPassToThreadsStartedLater) {
+  std::thread([] {
+    const std::uint64_t usual_ns = Turn_ns();
+    if (usual_ns == 0) GTEST_SKIP() << "this kernel has no turns to choose";
+    PreferShortTurns();
+    EXPECT_LT(Turn_ns(), usual_ns);
+    std::thread([&] { EXPECT_LT(Turn_ns(), usual_ns); }).join();
+  }).join();
+}
+
+TEST(ThreadPriority, YieldingEndsShortTurns) {
+  std::thread([] {
+    const std::uint64_t usual_ns = Turn_ns();
+    PreferShortTurns();
+    Yield(Niceness());
+    EXPECT_EQ(Turn_ns(), usual_ns);
+  }).join();
+}
+
+TEST(ThreadPriority, YieldsOneThreadAlone) {
+  const int before = Niceness();
+  std::thread([&] {
+    Yield(before + 2);
+    EXPECT_EQ(Niceness(), before + 2);
+  }).join();
+  EXPECT_EQ(Niceness(), before);
+}
+
+TEST(ThreadPriority, NeverGrowsMoreImportant) {
+  std::thread([] {
+    Yield(7);
+    Yield(3);
+    EXPECT_GE(Niceness(), 7);
+  }).join();
+}
+
+}  // namespace
+}  // namespace clearway
