@@ -31,16 +31,16 @@ class PushStream {
   }
 
   absl::Status Send(const Frame& frame) {
-    request_.Clear();
-    Write(frame, request_.mutable_frame());
-    request_.set_wait_for(ToProto(wait_for_));
+    v1::PushFramesRequest request;
+    Write(frame, request.mutable_frame());
+    request.set_wait_for(ToProto(wait_for_));
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return ended_ || unanswered_ < window_; });
       if (ended_) return absl::UnavailableError("the stream has ended");
       ++unanswered_;
     }
-    if (!stream_->Write(request_)) return absl::UnavailableError("the stream is broken");
+    if (!stream_->Write(request)) return absl::UnavailableError("the stream is broken");
     return absl::OkStatus();
   }
 
@@ -81,7 +81,6 @@ class PushStream {
   const FrameSender::OnAck on_ack_;
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReaderWriter<v1::PushFramesRequest, v1::PushFramesResponse>> stream_;
-  v1::PushFramesRequest request_;  // keeps its memory from frame to frame
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -90,47 +89,25 @@ class PushStream {
   std::thread reader_;
 };
 
-// The memory of one frame's message, kept for the next: a scan's is several megabytes, and asking
-// the system for them takes longer than filling them. Any thread.
-class SpareRequest {
- public:
-  std::unique_ptr<v1::PushFrameRequest> Take() {
-    std::lock_guard lock(mutex_);
-    return request_ != nullptr ? std::move(request_) : std::make_unique<v1::PushFrameRequest>();
-  }
-  void GiveBack(std::unique_ptr<v1::PushFrameRequest> request) {
-    request->Clear();
-    std::lock_guard lock(mutex_);
-    request_ = std::move(request);
-  }
-
- private:
-  std::mutex mutex_;
-  std::unique_ptr<v1::PushFrameRequest> request_;
-};
-
 }  // namespace
 
 struct FrameSender::Impl {
   std::shared_ptr<Connection> connection;
   std::unique_ptr<PushStream> stream;
-  SpareRequest spare;
 };
 
-FrameSender::FrameSender(std::shared_ptr<Connection> connection) : impl_(std::make_unique<Impl>()) {
-  impl_->connection = std::move(connection);
-}
+FrameSender::FrameSender(std::shared_ptr<Connection> connection)
+    : impl_(std::make_unique<Impl>(Impl{std::move(connection), nullptr})) {}
 FrameSender::~FrameSender() = default;
 FrameSender::FrameSender(FrameSender&&) noexcept = default;
 FrameSender& FrameSender::operator=(FrameSender&&) noexcept = default;
 
 absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, AckLevel wait_for) {
-  auto request = impl_->spare.Take();
-  Write(frame, request->mutable_frame());
-  request->set_wait_for(ToProto(wait_for));
+  v1::PushFrameRequest request;
+  Write(frame, request.mutable_frame());
+  request.set_wait_for(ToProto(wait_for));
   auto response = Call(impl_->connection->options(), *impl_->connection->impl().ingest,
-                       &v1::IngestService::Stub::PushFrame, *request);
-  impl_->spare.GiveBack(std::move(request));
+                       &v1::IngestService::Stub::PushFrame, request);
   if (!response.ok()) return response.status();
   return ReadPushAck(*response);
 }
