@@ -22,8 +22,8 @@ struct Ratio {
 };
 
 // Whether all repetitions of a benchmark run before those of another, or in a random order with
-// theirs, so that a machine that is slow for a while is so to all of them. The latter must not need
-// each other.
+// theirs, so that a machine that is slow for a while is so to all of them. Benchmarks that
+// run in turns must not depend on their order.
 enum class Order { kOneByOne, kInTurns };
 
 // Reads --quick and --out DIR (by default benchmarks/out in the source tree) and Google Benchmark's

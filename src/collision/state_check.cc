@@ -72,7 +72,8 @@ SpaceStatus StateCheck::Status(StateAnswer& answer) const {
   }
   if (options.unknown == UnknownPolicy::kTolerated &&
       *answer.unknown_fraction > options.max_unknown_fraction) {
-    return Touched(0, kStaticLabel, answer), SpaceStatus::kUnknownSpace;
+    Blame(0, kStaticLabel, answer);
+    return SpaceStatus::kUnknownSpace;
   }
   return SpaceStatus::kFree;
 }
@@ -82,7 +83,7 @@ bool StateCheck::OutOfBounds(StateAnswer& answer) const {
     for (const PlacedShape& shape : ShapesOf(link)) {
       const Aabb& box_W = shape.box_F();
       if (bounds_W_.Contains(box_W.min) && bounds_W_.Contains(box_W.max)) continue;
-      return Touched(link, kStaticLabel, answer);
+      return Blame(link, kStaticLabel, answer);
     }
   }
   return false;
@@ -91,11 +92,11 @@ bool StateCheck::OutOfBounds(StateAnswer& answer) const {
 bool StateCheck::Occupied(StateAnswer& answer) const {
   for (int link = 0; link < links(); ++link) {
     if (!Allowed(link, kStaticLabel) && TouchesStatic(link)) {
-      return Touched(link, kStaticLabel, answer);
+      return Blame(link, kStaticLabel, answer);
     }
     for (const PlacedObject& object : *objects_) {
       if (!object.ball_radius_m && TouchesObject(link, object)) {
-        return Touched(link, object.object->id, answer);
+        return Blame(link, object.object->id, answer);
       }
     }
   }
@@ -106,7 +107,7 @@ bool StateCheck::BeyondHorizon(StateAnswer& answer) const {
   for (int link = 0; link < links(); ++link) {
     for (const PlacedObject& object : *objects_) {
       if (object.ball_radius_m && TouchesObject(link, object)) {
-        return Touched(link, object.object->id, answer);
+        return Blame(link, object.object->id, answer);
       }
     }
   }
@@ -119,7 +120,7 @@ bool StateCheck::Unobserved(StateAnswer& answer) const {
     for (const PlacedShape& shape : ShapesOf(link)) {
       if (TouchesUnobserved(map, shape, context_.options.known_free_W, context_.options.padding_m,
                             context_.cancelled)) {
-        return Touched(link, kStaticLabel, answer);
+        return Blame(link, kStaticLabel, answer);
       }
     }
   }

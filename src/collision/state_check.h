@@ -29,8 +29,8 @@ class StateCheck {
  public:
   StateCheck(const CheckContext& context, const RobotGeometry& robot);
 
-  // The whole rule. T_W_L: one pose per link. The answer is written where it is to stay: a copy
-  // would wait until what was just written can be read back.
+  // The whole rule. T_W_L: one pose per link. The answer is written where it is to stay: to copy
+  // what was just written in smaller pieces stalls the processor (failed store forwarding).
   void Answer(Time time, const Pose* T_W_L, StateAnswer& answer);
 
  private:
@@ -46,7 +46,8 @@ class StateCheck {
   bool Occupied(StateAnswer& answer) const;
   bool BeyondHorizon(StateAnswer& answer) const;
   bool Unobserved(StateAnswer& answer) const;
-  static bool Touched(int link, ObjectId object, StateAnswer& answer) {
+  // Always true.
+  static bool Blame(int link, ObjectId object, StateAnswer& answer) {
     answer.link = link;
     answer.object = object;
     return true;

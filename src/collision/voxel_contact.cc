@@ -39,8 +39,8 @@ class Search {
       columns |= voxels.words[z];
     }
     if (layers == 0) return false;
-    constexpr int kFew = 128;  // are asked at once
-    if (CountOf(columns) * CountOf(layers) <= kFew) {
+    constexpr int kFewPlaces = 128;  // columns times layers: there are at most so many voxels
+    if (CountOf(columns) * CountOf(layers) <= kFewPlaces) {
       return TouchesAny(block, voxels, layers, ~std::uint64_t{0});
     }
     const VoxelKey base = VoxelAt(block, 0);

@@ -81,7 +81,7 @@ class Queue {
   std::size_t under_way_ = 0;
 };
 
-// One step of eight rays, as Walk in window_walk.cc. Returns which end with it.
+// One step of eight rays, as Step in window_walk.cc. Returns which end with it.
 CLEARWAY_AVX512 inline unsigned Step(Group& g, std::uint32_t* words) {
   const __mmask8 x_before_y = _mm512_cmp_pd_mask(g.x, g.y, _CMP_LT_OQ);
   const __mmask8 not_z = _mm512_cmp_pd_mask(_mm512_min_pd(g.x, g.y), g.z, _CMP_LT_OQ);

@@ -29,6 +29,10 @@ class VoxelRunsTest : public testing::TestWithParam<Case> {
   void ExpectRight(const std::vector<VoxelKey>& keys) {
     std::vector<Eigen::Vector3d> points;
     for (const VoxelKey& key : keys) points.push_back(grid_.CenterOf(key));
+    ExpectRight(points, keys);
+  }
+
+  void ExpectRight(const std::vector<Eigen::Vector3d>& points, const std::vector<VoxelKey>& keys) {
     const std::size_t room = keys.size() + kRunsRoom;
     std::vector<std::uint16_t> indices(room);
     std::vector<std::uint32_t> firsts(room);
@@ -93,6 +97,24 @@ TEST_P(VoxelRunsTest, ABlockThatDiffersAlongOneAxisAlone) {
     for (int i = 0; i < 40; ++i) keys.push_back({i / 3 * step.x, i / 3 * step.y, i / 3 * step.z});
     ExpectRight(keys);
   }
+}
+
+// Whose coordinates are multiples of the voxels' size, as near as they can be told.
+TEST_P(VoxelRunsTest, OnBorders) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<VoxelKey> keys;
+  while (points.size() < kRunsAtOnce) {
+    const auto any = [&] { return grid_.resolution_m() * random_.Integer(-3000, 3000); };
+    points.emplace_back(any(), any(), any());
+    keys.push_back(grid_.KeyOf(points.back()));
+  }
+  ExpectRight(points, keys);
+}
+
+TEST_P(VoxelRunsTest, AsManyRunsAsPoints) {
+  std::vector<VoxelKey> keys;
+  for (int i = 0; i < static_cast<int>(kRunsAtOnce); ++i) keys.push_back({kBlockSize * i, 0, -i});
+  ExpectRight(keys);
 }
 
 TEST_P(VoxelRunsTest, AtTheEndsOfTheGrid) {
