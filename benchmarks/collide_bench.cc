@@ -1,10 +1,12 @@
 // Robot states against the static map of a real drive, unknown space free, against FCL on an
 // fcl::OcTree of the same voxels: collision of four shapes at random poses of which half are free,
-// and clearance up to 2 m at free ones. Then what each further moving object costs.
+// and clearance up to 2 m at free ones. Then what each further moving object costs, near or not.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "clearway/collision/scene_checker.h"
@@ -102,17 +104,41 @@ void FclClearance(benchmark::State& state, const Case& c, std::size_t count) {
   }
 }
 
-// What each of a crowd of moving objects adds to the check of a free state; every state has a time
-// of its own within 5 s. Sets the counter.
+// Gives every state a time of its own within 5 s.
+StateBatch Spread(StateBatch states, Time from) {
+  for (std::size_t i = 0; i < states.times.size(); ++i) {
+    states.times[i] = from + std::chrono::milliseconds(5 * i);
+  }
+  return states;
+}
+
+// States that the scene's one object overlaps, each at its own time.
+StateBatch InTheObject(const SceneSnapshot& scene, std::size_t count) {
+  const MovingObject& object = *scene.objects.front();
+  StateBatch states;
+  states.times.resize(count);
+  states = Spread(std::move(states), scene.stamp);
+  for (const Time t : states.times) {
+    const Pose T_W_O = PredictPose(object, t, scene.params.horizon).T_W_O;
+    states.T_W_L.push_back(T_W_O *
+                           Pose{Eigen::Quaterniond::Identity(), object.solid->box_O.Center()});
+  }
+  return states;
+}
+
+bool AllOccupied(const SceneChecker& checker, const StateBatch& states) {
+  const CheckReply reply = *checker.Check(states, UnknownIsFree());
+  return std::all_of(reply.answers.begin(), reply.answers.end(), [](const StateAnswer& answer) {
+    return answer.status == SpaceStatus::kOccupied;
+  });
+}
+
+// What each of a crowd of moving objects adds to the check of a state. Sets the counter.
 void Crowd(benchmark::State& state, const Case& c, const DriveMap& drive, const ScenePtr& crowded,
-           const std::string& counter) {
+           const StateBatch& states, const std::string& counter) {
   using Clock = std::chrono::steady_clock;
   const SceneChecker alone(drive.scene, c.checker->robot());
   const SceneChecker with_objects(crowded, c.checker->robot());
-  StateBatch states = c.Free(1000);
-  for (std::size_t i = 0; i < states.times.size(); ++i) {
-    states.times[i] = crowded->stamp + std::chrono::milliseconds(5 * i);
-  }
   std::chrono::duration<double, std::nano> added(0);
   for (auto _ : state) {
     const auto start = Clock::now();
@@ -141,12 +167,19 @@ void Register(const Effort& effort) {
     add("clearway_" + name, [=, name = name](auto& state) { Collide(state, name, *c); });
     if (name == "sphere") {
       const double beside_m = drive.scene->static_map_W.ObservedBox().max.x() + 60;
-      const auto add_crowd = [&](const std::string& counter, const Eigen::Vector3d& center_W) {
-        const ScenePtr crowded = WithObjects(*drive.scene, 64, center_W);
-        add(counter, [=](auto& state) { Crowd(state, *c, drive, crowded, counter); });
+      const auto add_crowd = [&](const std::string& counter, const ScenePtr& crowded,
+                                 const StateBatch& states) {
+        add(counter, [=](auto& state) { Crowd(state, *c, drive, crowded, states, counter); });
       };
-      add_crowd("collide_culled_ns_per_object", {beside_m, 0, 0});
-      add_crowd("collide_among_ns_per_object", drive.box_W.Center());
+      const Eigen::Vector3d beside_W(beside_m, 0, 0);
+      const StateBatch free = Spread(c->Free(1000), drive.scene->stamp);
+      add_crowd("collide_culled_ns_per_object", WithObjects(*drive.scene, 64, beside_W), free);
+      add_crowd("collide_among_ns_per_object", WithObjects(*drive.scene, 64, drive.box_W.Center()),
+                free);
+      const ScenePtr one = WithObjects(*drive.scene, 1, beside_W);
+      const StateBatch inside = InTheObject(*one, 1000);
+      if (!AllOccupied(SceneChecker(one, c->checker->robot()), inside)) std::abort();
+      add_crowd("collide_overlapped_ns_per_object", one, inside);
     }
     if (name != "box") continue;
     const std::size_t count = effort.quick ? 100 : 500;
