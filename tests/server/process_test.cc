@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/client/frame_sender.h"
@@ -64,6 +67,16 @@ class Process {
     return all;
   }
   void Signal(int signal) const { kill(id_, signal); }
+  // How many of its threads have each niceness.
+  std::map<int, int> Nicenesses() const {
+    std::map<int, int> threads;
+    const std::string folder = absl::StrCat("/proc/", id_, "/task");
+    for (const auto& task : std::filesystem::directory_iterator(folder)) {
+      const int thread = std::stoi(task.path().filename());
+      ++threads[getpriority(PRIO_PROCESS, static_cast<id_t>(thread))];
+    }
+    return threads;
+  }
   // The exit code; -1 if a signal ended it.
   int Wait() {
     int status = 0;
@@ -163,6 +176,21 @@ TEST(ServerProcess, DrainsWithClientsConnected) {
   EXPECT_TRUE(sender.OpenStream([](const auto&, auto, const auto&) {}).ok());
   dut.Signal(SIGTERM);
   EXPECT_EQ(dut.Wait(), 0);
+}
+
+TEST(ServerProcess, OnlyThreadsThatApplyFramesYield) {
+  const int usual = getpriority(PRIO_PROCESS, 0);
+  const int yielding = usual + 7;
+  if (yielding > 19) GTEST_SKIP() << "this test itself hardly counts";
+  Process dut(
+      {"--listen", "127.0.0.1:0", "--threads", "2", "--writer-niceness", std::to_string(yielding)});
+  const auto connection = Connection::Open(dut.Address());
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  ASSERT_TRUE(FrameSender(*connection).Push(testing_support::FrameAt(1)).ok());
+  std::map<int, int> threads = dut.Nicenesses();
+  EXPECT_EQ(threads[yielding], 2);
+  EXPECT_GT(threads[usual], 0);
+  EXPECT_EQ(threads.size(), 2);
 }
 
 TEST(ServerProcess, ListensOnAUnixSocket) {
