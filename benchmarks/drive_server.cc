@@ -39,6 +39,7 @@ Drive::Drive() {
     frames_.push_back(OrAbort(source.read(i)));
     frames_.back().motions.clear();
   }
+  first_stamp_ = frames_[0].stamp;
 }
 
 const Frame& Drive::Next() {
@@ -46,7 +47,7 @@ const Frame& Drive::Next() {
   const std::size_t place = next_ % turn;
   Frame& frame = frames_[std::min(place, turn - place)];
   frame.sequence = next_;
-  frame.stamp = frames_[0].stamp + static_cast<std::int64_t>(next_) * kPeriod;
+  frame.stamp = first_stamp_ + static_cast<std::int64_t>(next_) * kPeriod;
   ++next_;
   return frame;
 }

@@ -22,6 +22,7 @@ class Drive {
 
  private:
   std::vector<Frame> frames_;
+  Time first_stamp_;
   std::size_t next_ = 0;
 };
 
