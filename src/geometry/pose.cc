@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/multiversion.h"
+
 namespace clearway {
 namespace {
 
@@ -14,6 +16,28 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
 // Below this angle the closed forms lose digits and their series are exact to double precision.
 constexpr double kSmallAngle = 1e-4;
 
+// A pose's quaternion and translation, as plain numbers.
+struct Coefficients {
+  double x, y, z, w;
+  double t[3];
+};
+
+// The operations of Eigen's Quaternion::_transformVector in their order, so that they round alike.
+CLEARWAY_MULTIVERSION void Transform(const Coefficients& T, const float* p_B, std::size_t count,
+                                     double* p_A) {
+  for (std::size_t i = 0; i < 3 * count; i += 3) {
+    const double x = p_B[i], y = p_B[i + 1], z = p_B[i + 2];
+    const double ux = 2 * (T.y * z - T.z * y);
+    const double uy = 2 * (T.z * x - T.x * z);
+    const double uz = 2 * (T.x * y - T.y * x);
+    p_A[i] = x + T.w * ux + (T.y * uz - T.z * uy) + T.t[0];
+    p_A[i + 1] = y + T.w * uy + (T.z * ux - T.x * uz) + T.t[1];
+    p_A[i + 2] = z + T.w * uz + (T.x * uy - T.y * ux) + T.t[2];
+  }
+}
+static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+
 }  // namespace
 
 Pose Pose::FromMatrix(const Eigen::Matrix<double, 3, 4>& matrix) {
@@ -22,6 +46,15 @@ Pose Pose::FromMatrix(const Eigen::Matrix<double, 3, 4>& matrix) {
 
 Pose Pose::Translation(double x_m, double y_m, double z_m) {
   return {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}};
+}
+
+void TransformAll(const Pose& T_A_B, std::span<const Eigen::Vector3f> points_B,
+                  Eigen::Vector3d* points_A) {
+  if (points_B.empty()) return;
+  const Eigen::Quaterniond& q = T_A_B.rotation;
+  const Eigen::Vector3d& t = T_A_B.translation;
+  Transform({q.x(), q.y(), q.z(), q.w(), {t.x(), t.y(), t.z()}}, points_B[0].data(),
+            points_B.size(), points_A->data());
 }
 
 Pose operator*(const Pose& T_A_B, const Pose& T_B_C) {

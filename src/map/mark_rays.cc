@@ -24,11 +24,11 @@ int ConesAcross(std::size_t rays) {
 
 class Marker {
  public:
-  Marker(const VoxelGrid& grid, const RayRounds& rays, BitWindow& window)
+  Marker(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window)
       : grid_(grid), rays_(rays), window_(window) {
     const auto [origin, end] = SegmentIn(rays.round(0)[0], 0);
     axis_ = MainAxis(end - origin);
-    if (!rays.one_origin()) return;
+    if (!one_origin) return;
     cones_.emplace(grid, origin.cast<double>(), axis_, end[axis_] < origin[axis_],
                    ConesAcross(rays.size()));
   }
@@ -88,9 +88,9 @@ class Marker {
 
 }  // namespace
 
-void MarkRays(const VoxelGrid& grid, const RayRounds& rays, BitWindow& window) {
+void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window) {
   if (rays.size() == 0) return;
-  Marker marker(grid, rays, window);
+  Marker marker(grid, rays, one_origin, window);
   for (std::size_t round = 0; round < RayRounds::kCount; ++round) marker.Walk(round);
 }
 

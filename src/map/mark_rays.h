@@ -8,6 +8,7 @@
 namespace clearway {
 
 // Sets the bits of the voxels that WalkRay visits on the rays; the window must cover them.
-void MarkRays(const VoxelGrid& grid, const RayRounds& rays, BitWindow& window);
+// `one_origin`: whether all rays begin at one point.
+void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window);
 
 }  // namespace clearway

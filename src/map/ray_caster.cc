@@ -14,22 +14,30 @@ const Eigen::Vector3f& OriginOf(const RayCloud& cloud, std::size_t i) {
   return cloud.origins.size() == 1 ? cloud.origins[0] : cloud.origins[i];
 }
 
-// A ray of the cloud after RayOptions.
-struct PreparedRay {
-  LimitedRay limited;
-  VoxelKey end;  // of the point, however far it is
-  int sector;
+// The rays of a cloud after RayOptions: arrays with one entry each.
+struct PreparedRays {
+  std::vector<VoxelKey> keys;         // of the points, however far they are
+  std::vector<Eigen::Vector3f> ends;  // of the rays
+  std::vector<std::uint8_t> within_range, sectors;
+
+  std::size_t size() const { return keys.size(); }
 };
 
 void Prepare(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options,
-             ThreadPool& pool, std::vector<PreparedRay>& rays) {
-  rays.resize(cloud.ends.size());
-  pool.ParallelFor(rays.size(), [&](int, std::size_t begin, std::size_t end) {
+             ThreadPool& pool, PreparedRays& rays) {
+  const std::size_t size = cloud.ends.size();
+  rays.keys.resize(size);
+  rays.ends.resize(size);
+  rays.within_range.resize(size);
+  rays.sectors.resize(size);
+  pool.ParallelFor(size, [&](int, std::size_t begin, std::size_t end) {
+    grid.KeysOf(cloud.ends.subspan(begin, end - begin), &rays.keys[begin]);
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f& origin = OriginOf(cloud, i);
       const LimitedRay limited = LimitRay(grid, options, origin, cloud.ends[i]);
-      rays[i] = {limited, grid.KeyOf(cloud.ends[i].cast<double>()),
-                 RaySector::IndexOf(limited.end - origin)};
+      rays.ends[i] = limited.end;
+      rays.within_range[i] = limited.within_range;
+      rays.sectors[i] = static_cast<std::uint8_t>(RaySector::IndexOf(limited.end - origin));
     }
   });
 }
@@ -37,12 +45,11 @@ void Prepare(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& opt
 // Calls walk(i) for the rays that are walked: all, or with `distinct` the first one into each voxel
 // (first of a clearing and of a returned ray apart).
 template <class Walk>
-void ForEachRayToWalk(const RayCloud& cloud, const std::vector<PreparedRay>& rays, bool distinct,
-                      Walk&& walk) {
+void ForEachRayToWalk(const RayCloud& cloud, const PreparedRays& rays, bool distinct, Walk&& walk) {
   absl::flat_hash_set<VoxelKey> returned, cleared;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     auto& seen = cloud.kinds[i] == RayEnd::kClear ? cleared : returned;
-    if (!distinct || seen.insert(rays[i].end).second) walk(i);
+    if (!distinct || seen.insert(rays.keys[i]).second) walk(i);
   }
 }
 
@@ -53,7 +60,7 @@ struct RayCaster::Impl {
 
   ThreadPool& pool;
   // Of the cloud at hand; their memory is kept for the next.
-  std::vector<PreparedRay> rays;
+  PreparedRays rays;
   std::array<RaySector, RaySector::kCount> sectors;
 
   void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
@@ -89,17 +96,17 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
                            const RayOptions& options) {
   ScanUpdate update;
   if (cloud.ends.empty()) return update;
-  std::vector<PreparedRay>& rays = impl_->rays;
+  PreparedRays& rays = impl_->rays;
   Prepare(grid, cloud, options, impl_->pool, rays);
   for (RaySector& sector : impl_->sectors) sector.Clear();
   const bool distinct = options.discretize && cloud.origins.size() == 1;
   ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
-    impl_->sectors[rays[i].sector].Add({OriginOf(cloud, i), rays[i].limited.end});
+    impl_->sectors[rays.sectors[i]].Add({OriginOf(cloud, i), rays.ends[i]});
   });
   impl_->MarkFree(grid, update);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (cloud.kinds[i] == RayEnd::kClear || !rays[i].limited.within_range) continue;
-    cloud.kinds[i] == RayEnd::kHit ? update.MarkHit(rays[i].end) : update.MarkEnd(rays[i].end);
+    if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
+    cloud.kinds[i] == RayEnd::kHit ? update.MarkHit(rays.keys[i]) : update.MarkEnd(rays.keys[i]);
   }
   return update;
 }

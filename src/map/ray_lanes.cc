@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "map/multiversion.h"
+#include "base/multiversion.h"
 
 namespace clearway {
 namespace {

@@ -1,43 +1,97 @@
 #include "map/ray_rounds.h"
 
-#include <cstdint>
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "base/multiversion.h"
 
 namespace clearway {
 namespace {
 
-// Of thirteen rays in a row, the round of each; thirteen divides the width of hardly any camera.
-constexpr std::array<std::uint8_t, 13> kRoundInARow{0, 2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 1, 2};
+// Of rays in a row, the places of those of each round.
+constexpr std::array<std::size_t, 1> kFirst{0};
+constexpr std::array<std::size_t, 3> kSecond{4, 8, 11};
+constexpr std::array<std::size_t, 9> kRest{1, 2, 3, 5, 6, 7, 9, 10, 12};
+static_assert(kFirst.size() + kSecond.size() + kRest.size() == RayRounds::kInARow);
+
+// The rays at these places of each row, in order.
+template <std::size_t kPlaces>
+void DealTo(std::vector<RaySegments>& round, const std::array<std::size_t, kPlaces>& places,
+            std::span<const RaySegment> rows) {
+  for (std::size_t eight = 0; eight < kPlaces; ++eight) {
+    RaySegments& rays = round.emplace_back();
+    for (int lane = 0; lane < kRayLanes; ++lane) {
+      const std::size_t i = eight * kRayLanes + lane;
+      Put(rows[i / kPlaces * RayRounds::kInARow + places[i % kPlaces]], lane, rays);
+    }
+  }
+}
+
+// Eight boxes, a lane each.
+struct LaneBoxes {
+  LaneFloats min[3], max[3];
+};
+
+void Extend(const LaneFloats (&point)[3], LaneBoxes& boxes) {
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.min[axis] = point[axis] < boxes.min[axis] ? point[axis] : boxes.min[axis];
+    boxes.max[axis] = point[axis] > boxes.max[axis] ? point[axis] : boxes.max[axis];
+  }
+}
+
+CLEARWAY_MULTIVERSION void Extend(const std::vector<RaySegments>& rays, LaneBoxes& origins,
+                                  LaneBoxes& ends) {
+  for (const RaySegments& eight : rays) {
+    Extend(eight.origin, origins);
+    Extend(eight.end, ends);
+  }
+}
+
+LaneBoxes Empty() {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  LaneBoxes boxes;
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.min[axis] = LaneFloats{} + kFar;
+    boxes.max[axis] = LaneFloats{} - kFar;
+  }
+  return boxes;
+}
+
+Eigen::AlignedBox3f Around(const LaneBoxes& boxes) {
+  Eigen::AlignedBox3f box;
+  for (int lane = 0; lane < kRayLanes; ++lane) {
+    box.extend(Eigen::Vector3f(boxes.min[0][lane], boxes.min[1][lane], boxes.min[2][lane]));
+    box.extend(Eigen::Vector3f(boxes.max[0][lane], boxes.max[1][lane], boxes.max[2][lane]));
+  }
+  return box;
+}
 
 }  // namespace
 
-int MainAxis(const Eigen::Vector3f& direction) {
-  const Eigen::Vector3f size = direction.cwiseAbs();
-  if (size.x() >= size.y() && size.x() >= size.z()) return 0;
-  return size.y() >= size.z() ? 1 : 2;
-}
-
 void RayRounds::Clear() {
-  for (Round& round : rounds_) {
-    round.rays.clear();
-    round.lane = 0;
-  }
-  size_ = in_row_ = 0;
-  box_.setEmpty();
+  for (auto& round : rounds_) round.clear();
+  size_ = 0;
 }
 
-void RayRounds::Add(const RaySegment& ray) {
-  if (size_ == 0 || ray.origin != last_origin_) {
-    one_origin_ = size_ == 0;
-    last_origin_ = ray.origin;
-    box_.extend(ray.origin);
-  }
-  box_.extend(ray.end);
-  Round& round = rounds_[kRoundInARow[in_row_]];
-  in_row_ = in_row_ + 1 == kRoundInARow.size() ? 0 : in_row_ + 1;
-  ++size_;
-  if (round.lane == 0) round.rays.push_back(EightOf({ray.origin, ray.origin}));
-  Put(ray, round.lane, round.rays.back());
-  round.lane = (round.lane + 1) % kRayLanes;
+void RayRounds::Finish() {
+  const std::size_t last = size_ % kDealtTogether;
+  if (last == 0) return;
+  const Eigen::Vector3f origin = waiting_[0].origin;
+  std::fill(waiting_.begin() + last, waiting_.end(), RaySegment{origin, origin});
+  Deal();
+}
+
+void RayRounds::Deal() {
+  DealTo(rounds_[0], kFirst, waiting_);
+  DealTo(rounds_[1], kSecond, waiting_);
+  DealTo(rounds_[2], kRest, waiting_);
+}
+
+RayRounds::Boxes RayRounds::BoxesAround() const {
+  LaneBoxes origins = Empty(), ends = Empty();
+  for (const auto& round : rounds_) Extend(round, origins, ends);
+  return {Around(origins), Around(ends)};
 }
 
 }  // namespace clearway

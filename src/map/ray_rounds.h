@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "map/ray_lanes.h"
@@ -10,7 +12,11 @@
 namespace clearway {
 
 // The axis of the largest component.
-int MainAxis(const Eigen::Vector3f& direction);
+inline int MainAxis(const Eigen::Vector3f& direction) {
+  const float x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
+  const int of_x_and_y = x >= y ? 0 : 1;
+  return z > std::max(x, y) ? 2 : of_x_and_y;
+}
 
 // Rays in the grid's frame, all with the same main axis and the same sign along it, dealt to the
 // rounds in which they are walked: a few that lie apart, some more, then the rest, of which the
@@ -19,30 +25,33 @@ int MainAxis(const Eigen::Vector3f& direction);
 class RayRounds {
  public:
   static constexpr std::size_t kCount = 3;
+  static constexpr std::size_t kInARow = 13;  // that are dealt; divides hardly any camera's width
 
   void Clear();
-  void Add(const RaySegment& ray);
+  void Add(const RaySegment& ray) {
+    waiting_[size_ % kDealtTogether] = ray;
+    if (++size_ % kDealtTogether == 0) Deal();
+  }
+  // After the last ray.
+  void Finish();
 
   std::size_t size() const { return size_; }
-  // The last eight may be filled up with rays that go nowhere.
-  const std::vector<RaySegments>& round(std::size_t i) const { return rounds_[i].rays; }
-  // Whether all rays begin at one point.
-  bool one_origin() const { return one_origin_; }
-  // Around the rays.
-  const Eigen::AlignedBox3f& box() const { return box_; }
+  // Once finished. Some may be rays that go nowhere.
+  const std::vector<RaySegments>& round(std::size_t i) const { return rounds_[i]; }
+  // Where all rays begin, and where they end. Looks at each.
+  struct Boxes {
+    Eigen::AlignedBox3f origins, ends;
+  };
+  Boxes BoxesAround() const;
 
  private:
-  struct Round {
-    std::vector<RaySegments> rays;
-    int lane = 0;  // the next to be filled; 0: of a new eight
-  };
+  static constexpr std::size_t kDealtTogether = kInARow * kRayLanes;  // whole eights to each round
 
-  std::array<Round, kCount> rounds_;
+  void Deal();
+
+  std::array<RaySegment, kDealtTogether> waiting_;
+  std::array<std::vector<RaySegments>, kCount> rounds_;
   std::size_t size_ = 0;
-  std::size_t in_row_ = 0;  // the next one's place
-  Eigen::Vector3f last_origin_;
-  bool one_origin_ = true;
-  Eigen::AlignedBox3f box_;
 };
 
 }  // namespace clearway

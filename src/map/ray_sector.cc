@@ -5,36 +5,29 @@
 
 namespace clearway {
 
-int RaySector::IndexOf(const Eigen::Vector3f& direction) {
-  const int main_axis = MainAxis(direction);
-  const int other_axis = main_axis == 0 ? 1 : 0;
-  return 4 * main_axis + 2 * (direction[main_axis] < 0) + (direction[other_axis] < 0);
-}
-
 void RaySector::Clear() {
   rays_.Clear();
   blocks_.clear();
 }
 
-void RaySector::Add(const RaySegment& ray) {
-  if (ray.origin == ray.end) return;  // WalkRay visits nothing
-  rays_.Add(ray);
-}
-
 const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
   if (size() == 0) return blocks_;
+  rays_.Finish();
   // A ray strays by less than a voxel from its segment.
   const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
     const VoxelKey key = grid.KeyOf(p.cast<double>());
     return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
   };
-  const BlockKey first = block_at(rays_.box().min(), -2), last = block_at(rays_.box().max(), 2);
+  const RayRounds::Boxes boxes = rays_.BoxesAround();
+  const Eigen::AlignedBox3f box = boxes.origins.merged(boxes.ends);
+  const BlockKey first = block_at(box.min(), -2), last = block_at(box.max(), 2);
   if (!BitWindow::Fits(first, last)) {
     MarkSparsely(grid);
     return blocks_;
   }
   window_.Cover(first, last);
-  MarkRays(grid, rays_, window_);
+  const bool one_origin = boxes.origins.min() == boxes.origins.max();
+  MarkRays(grid, rays_, one_origin, window_);
   for (std::size_t row = 0; row < window_.rows(); ++row) window_.TakeRow(row, blocks_);
   return blocks_;
 }

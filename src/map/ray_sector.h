@@ -16,10 +16,16 @@ class RaySector {
   // A sector is told by the axis and sign of the direction's largest component, and by the sign of
   // another one: eight sectors look to the sides, two up and two down.
   static constexpr int kCount = 12;
-  static int IndexOf(const Eigen::Vector3f& direction);
+  static int IndexOf(const Eigen::Vector3f& direction) {
+    const int main_axis = MainAxis(direction);
+    const int other_axis = main_axis == 0 ? 1 : 0;
+    return 4 * main_axis + 2 * (direction[main_axis] < 0) + (direction[other_axis] < 0);
+  }
 
   void Clear();
-  void Add(const RaySegment& ray);
+  void Add(const RaySegment& ray) {
+    if (ray.origin != ray.end) rays_.Add(ray);  // else WalkRay visits nothing
+  }
   std::size_t size() const { return rays_.size(); }
 
   // Walks the rays: the voxels that WalkRay visits, by blocks, each block once. Valid until Clear.

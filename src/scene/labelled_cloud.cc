@@ -1,6 +1,7 @@
 #include "scene/labelled_cloud.h"
 
 #include <algorithm>
+#include <array>
 
 namespace clearway {
 namespace {
@@ -17,11 +18,6 @@ RayEnd KindOf(const Frame& frame, std::size_t i) {
 struct PlacedRay {
   Eigen::Vector3d end_W, origin_W;
 };
-
-PlacedRay PlaceRay(const Frame& frame, std::size_t i, const Pose& T_W_S) {
-  return {T_W_S * frame.points_S[i].cast<double>(),
-          frame.origins_S.empty() ? T_W_S.translation : T_W_S * frame.origins_S[i].cast<double>()};
-}
 
 // Null if the point is used; else where it is counted.
 std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i, const PlacedRay& ray,
@@ -41,9 +37,29 @@ std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i, co
   return nullptr;
 }
 
+// What every usable point lies in.
+Aabb UsableBox(const SceneParams& params, const VoxelGrid& grid) {
+  const Eigen::Vector3d limit = Eigen::Vector3d::Constant(grid.limit_m());
+  return {params.bounds_W.min.cwiseMax(-limit), params.bounds_W.max.cwiseMin(limit)};
+}
+
+void Add(const Frame& frame, std::size_t i, const PlacedRay& ray, const SceneParams& params,
+         const VoxelGrid& grid, LabelledCloud& cloud) {
+  cloud.ends_W.push_back(ray.end_W.cast<float>());
+  cloud.kinds.push_back(KindOf(frame, i));
+  cloud.labels.push_back(frame.labels[i]);
+  if (!frame.origins_S.empty()) cloud.origins_W.push_back(ray.origin_W.cast<float>());
+  if (cloud.kinds.back() != RayEnd::kBlock) return;
+  if (LimitRay(grid, params.rays, ray.origin_W.cast<float>(), cloud.ends_W.back()).within_range) {
+    cloud.object_hits[frame.labels[i]].push_back(
+        static_cast<std::uint32_t>(cloud.ends_W.size() - 1));
+  }
+}
+
 }  // namespace
 
 LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameReport& report) {
+  constexpr std::size_t kTogether = 256;  // points placed at once
   const VoxelGrid grid(params.resolution_m);
   const Pose T_W_S{frame.T_W_S.rotation.normalized(), frame.T_W_S.translation};
   const std::size_t size = frame.points_S.size();
@@ -51,23 +67,29 @@ LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameRep
   cloud.ends_W.reserve(size);
   cloud.kinds.reserve(size);
   cloud.labels.reserve(size);
-  if (frame.origins_S.empty()) cloud.origins_W = {T_W_S.translation.cast<float>()};
+  const bool one_origin = frame.origins_S.empty();
+  if (one_origin) cloud.origins_W = {T_W_S.translation.cast<float>()};
+  // A point that is not finite lies in no box.
+  const bool usable_by_place = one_origin && params.self_filter_S.empty();
+  const Aabb usable_W = UsableBox(params, grid);
+  std::array<Eigen::Vector3d, kTogether> ends_W;
   for (std::size_t i = 0; i < size; ++i) {
-    const PlacedRay ray = PlaceRay(frame, i, T_W_S);
-    if (auto counter = ReasonToLeaveOut(frame, i, ray, params, grid)) {
-      ++(report.*counter);
-      continue;
+    if (i % kTogether == 0) {
+      TransformAll(T_W_S, std::span(frame.points_S).subspan(i, std::min(kTogether, size - i)),
+                   ends_W.data());
+    }
+    const PlacedRay ray{ends_W[i % kTogether],
+                        one_origin ? T_W_S.translation : T_W_S * frame.origins_S[i].cast<double>()};
+    const bool surely_used =
+        usable_by_place && frame.labels[i] != kIgnoreLabel && usable_W.Contains(ray.end_W);
+    if (!surely_used) {
+      if (const auto counter = ReasonToLeaveOut(frame, i, ray, params, grid)) {
+        ++(report.*counter);
+        continue;
+      }
     }
     ++report.points_used;
-    cloud.ends_W.push_back(ray.end_W.cast<float>());
-    cloud.kinds.push_back(KindOf(frame, i));
-    cloud.labels.push_back(frame.labels[i]);
-    if (!frame.origins_S.empty()) cloud.origins_W.push_back(ray.origin_W.cast<float>());
-    if (cloud.kinds.back() != RayEnd::kBlock) continue;
-    if (LimitRay(grid, params.rays, ray.origin_W.cast<float>(), cloud.ends_W.back()).within_range) {
-      cloud.object_hits[frame.labels[i]].push_back(
-          static_cast<std::uint32_t>(cloud.ends_W.size() - 1));
-    }
+    Add(frame, i, ray, params, grid, cloud);
   }
   return cloud;
 }

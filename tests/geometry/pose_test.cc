@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <vector>
 
 #include "support/random.h"
 
@@ -26,6 +27,20 @@ TEST(Pose, ComposesLikeMatrices) {
     const Pose T_A_B = random.AnyPose(10), T_B_C = random.AnyPose(10);
     const Eigen::Vector3d p_C = random.Vector(10);
     EXPECT_LT((T_A_B * T_B_C * p_C - T_A_B * (T_B_C * p_C)).norm(), 1e-12);
+  }
+}
+
+TEST(Pose, TransformsManyPointsAsItDoesOne) {
+  Random random(7);
+  for (const std::size_t count : {0, 1, 7, 8, 100}) {
+    const Pose T_A_B = random.AnyPose(100);
+    std::vector<Eigen::Vector3f> points_B;
+    for (std::size_t i = 0; i < count; ++i) points_B.push_back(random.Vector(50).cast<float>());
+    std::vector<Eigen::Vector3d> points_A(count);
+    TransformAll(T_A_B, points_B, points_A.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(points_A[i], T_A_B * points_B[i].cast<double>());
+    }
   }
 }
 

@@ -20,7 +20,9 @@ std::set<VoxelKey> Marked(const VoxelGrid& grid, const std::vector<RaySegment>& 
   window.Cover({-16, -16, -16}, {15, 15, 15});  // 6.4 m to each side
   RayRounds rounds;
   for (const RaySegment& ray : rays) rounds.Add(ray);
-  MarkRays(grid, rounds, window);
+  rounds.Finish();
+  const auto& origins = rounds.BoxesAround().origins;
+  MarkRays(grid, rounds, origins.min() == origins.max(), window);
   std::vector<BitWindow::Block> blocks;
   for (std::size_t row = 0; row < window.rows(); ++row) window.TakeRow(row, blocks);
   std::set<VoxelKey> voxels;

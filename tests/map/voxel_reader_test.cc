@@ -70,6 +70,12 @@ TEST(VoxelGrid, ManyKeysAreThoseOfEachPoint) {
         EXPECT_EQ(index, std::floor(1 / resolution_m * points[i][axis]));
       }
     }
+    std::vector<Eigen::Vector3f> in_single;
+    for (const Eigen::Vector3d& p : points) in_single.push_back(p.cast<float>());
+    dut.KeysOf(in_single, keys.data());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(keys[i], dut.KeyOf(in_single[i].cast<double>()));
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 
 namespace clearway {
 
@@ -24,6 +25,10 @@ struct Pose {
     return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
   }
 };
+
+// points_A[i] = T_A_B * points_B[i], bit for bit; faster than one by one.
+void TransformAll(const Pose& T_A_B, std::span<const Eigen::Vector3f> points_B,
+                  Eigen::Vector3d* points_A);
 
 // T_A_B * T_B_C = T_A_C.
 Pose operator*(const Pose& T_A_B, const Pose& T_B_C);

@@ -77,6 +77,7 @@ class VoxelGrid {
   }
   // The same for many points: keys[i] of points[i].
   void KeysOf(std::span<const Eigen::Vector3d> points, VoxelKey* keys) const;
+  void KeysOf(std::span<const Eigen::Vector3f> points, VoxelKey* keys) const;
   Eigen::Vector3d CenterOf(VoxelKey key) const {
     return {Center(key.x), Center(key.y), Center(key.z)};
   }
