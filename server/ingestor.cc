@@ -138,13 +138,13 @@ Ingestor::Answer Ingestor::Do(Job& job) {
 
 // Gives the threads that apply frames a smaller share of a busy machine: who asks waits for an
 // answer, while a frame that comes late is only late.
-void Ingestor::YieldThreads() {
+void Ingestor::MakeThreadsGiveWay() {
   pool_.ParallelFor(pool_.threads(),
-                    [this](int, std::size_t, std::size_t) { Yield(options_.niceness); });
+                    [this](int, std::size_t, std::size_t) { GiveWay(options_.niceness); });
 }
 
 void Ingestor::Run() {
-  YieldThreads();
+  MakeThreadsGiveWay();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return draining_ || !queue_.empty(); });

@@ -93,7 +93,7 @@ class Ingestor {
   std::optional<Ticket> Remembered(const FrameName& name) const;
   void Remember(const FrameName& name, const Ticket& ticket);
   absl::StatusOr<Ticket> PushLocked(std::unique_lock<std::mutex>& lock, Frame frame);
-  void YieldThreads();
+  void MakeThreadsGiveWay();
   void Run();
   Answer Do(Job& job);
 

@@ -32,7 +32,7 @@ sigset_t BlockSignals() {
 
 int Serve(const ServerConfig& config) {
   const sigset_t signals = BlockSignals();
-  PreferShortTurns();  // of the threads that answer; those that apply frames yield
+  PreferShortTurns();  // of the threads that answer; those that apply frames give way
   absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config);
   if (!server.ok()) {
     spdlog::error("{}", std::string(server.status().message()));

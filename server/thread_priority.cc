@@ -37,7 +37,7 @@ void PreferShortTurns() {
   ChangeScheduling([](Attributes& attributes) { attributes.runtime_ns = kShortTurn_ns; });
 }
 
-void Yield(int niceness) {
+void GiveWay(int niceness) {
   ChangeScheduling([&](Attributes& attributes) {
     attributes.runtime_ns = kUsualTurn;
     attributes.nice = std::max(attributes.nice, niceness);

@@ -10,6 +10,6 @@ namespace clearway {
 void PreferShortTurns();
 
 // Gives the calling thread a smaller share, from 0 (as others) to 19, in turns of the usual length.
-void Yield(int niceness);
+void GiveWay(int niceness);
 
 }  // namespace clearway

@@ -178,17 +178,17 @@ TEST(ServerProcess, DrainsWithClientsConnected) {
   EXPECT_EQ(dut.Wait(), 0);
 }
 
-TEST(ServerProcess, OnlyThreadsThatApplyFramesYield) {
+TEST(ServerProcess, OnlyThreadsThatApplyFramesGiveWay) {
   const int usual = getpriority(PRIO_PROCESS, 0);
-  const int yielding = usual + 7;
-  if (yielding > 19) GTEST_SKIP() << "this test itself hardly counts";
-  Process dut(
-      {"--listen", "127.0.0.1:0", "--threads", "2", "--writer-niceness", std::to_string(yielding)});
+  const int giving_way = usual + 7;
+  if (giving_way > 19) GTEST_SKIP() << "this test itself hardly counts";
+  Process dut({"--listen", "127.0.0.1:0", "--threads", "2", "--writer-niceness",
+               std::to_string(giving_way)});
   const auto connection = Connection::Open(dut.Address());
   ASSERT_TRUE(connection.ok()) << connection.status();
   ASSERT_TRUE(FrameSender(*connection).Push(testing_support::FrameAt(1)).ok());
   std::map<int, int> threads = dut.Nicenesses();
-  EXPECT_EQ(threads[yielding], 2);
+  EXPECT_EQ(threads[giving_way], 2);
   EXPECT_GT(threads[usual], 0);
   EXPECT_EQ(threads.size(), 2);
 }

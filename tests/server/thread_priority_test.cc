@@ -32,19 +32,19 @@ TEST(ThreadPriority, ShortTurnsPassToThreadsStartedLater) {
   }).join();
 }
 
-TEST(ThreadPriority, YieldingEndsShortTurns) {
+TEST(ThreadPriority, GivingWayEndsShortTurns) {
   std::thread([] {
     const std::uint64_t usual_ns = Turn_ns();
     PreferShortTurns();
-    Yield(Niceness());
+    GiveWay(Niceness());
     EXPECT_EQ(Turn_ns(), usual_ns);
   }).join();
 }
 
-TEST(ThreadPriority, YieldsOneThreadAlone) {
+TEST(ThreadPriority, OneThreadAloneGivesWay) {
   const int before = Niceness();
   std::thread([&] {
-    Yield(before + 2);
+    GiveWay(before + 2);
     EXPECT_EQ(Niceness(), before + 2);
   }).join();
   EXPECT_EQ(Niceness(), before);
@@ -52,8 +52,8 @@ TEST(ThreadPriority, YieldsOneThreadAlone) {
 
 TEST(ThreadPriority, NeverGrowsMoreImportant) {
   std::thread([] {
-    Yield(7);
-    Yield(3);
+    GiveWay(7);
+    GiveWay(3);
     EXPECT_GE(Niceness(), 7);
   }).join();
 }
