@@ -13,9 +13,9 @@
 namespace clearway {
 namespace {
 
-std::string HashOf(const FrameSource& source, int threads) {
+std::string HashOf(const FrameSource& source, int threads, const SceneParams& params = {}) {
   ThreadPool pool(threads);
-  SceneBuilder builder({}, {}, pool);
+  SceneBuilder builder(params, {}, pool);
   for (std::size_t k = 0; k < source.frame_count; ++k) {
     const auto frame = source.read(k);
     EXPECT_TRUE(frame.ok()) << frame.status();
@@ -51,6 +51,18 @@ TEST(Determinism, ReplayingARecordingTwiceWithOneAndTwoThreads) {
   std::set<std::string> hashes{HashOf(frames, 1)};
   for (int threads : {1, 1, 2, 2}) hashes.insert(HashOf(*recording, threads));
   EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST(Determinism, WholeScansWithSeveralThreads) {
+  const auto folder = DataPath("kitti0000_full");
+  if (!folder) GTEST_SKIP() << "only recorded scans are compared here";
+  LidarFolderOptions options;
+  options.last_frame = 2;
+  const FrameSource frames = OpenLidarFolder(*folder, options)->frames;
+  SceneParams params;
+  params.rays.max_range_m = 50;
+  const std::string expected = HashOf(frames, 1, params);
+  for (int threads : {2, 3, 8}) EXPECT_EQ(HashOf(frames, threads, params), expected) << threads;
 }
 
 }  // namespace

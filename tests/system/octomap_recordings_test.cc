@@ -130,6 +130,13 @@ INSTANTIATE_TEST_SUITE_P(Drives, OctomapRecordingsTest,
                                          Case{"kitti0000_fov", 40, {-1, true}}),
                          [](const auto& drive) { return "Drive" + std::to_string(drive.index); });
 
+// Depth images: rays much closer together than voxels, of any length, from a camera beside objects.
+TEST(OctomapDepthTest, SameStaticMap) {
+  const auto lab = MakeScenario("lab", {.image_width_px = 640});
+  ASSERT_TRUE(lab.ok()) << lab.status();
+  ExpectSameStaticMap({lab->MakeFrame(0), lab->MakeFrame(5)}, 0.05, {-1, false});
+}
+
 class OctomapScansTest : public testing::TestWithParam<bool> {
  protected:
   // Each cloud as a frame of static points.
