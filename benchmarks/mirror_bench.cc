@@ -76,16 +76,22 @@ void Deltas(benchmark::State& state, Drive drive, std::size_t scans) {
   }
 }
 
+std::unique_ptr<SceneMirror> Follow(const DriveServer& served) {
+  auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
+  if (!mirror.ok()) std::abort();
+  return *std::move(mirror);
+}
+
 // From the answer to an applied scan to its appearance in a mirror, over loopback.
 void Lag(benchmark::State& state, std::size_t scans) {
   DriveServer served(1);
-  const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
+  const auto mirror = Follow(served);
   for (auto _ : state) {
     std::vector<double> lags_ms;
     for (std::size_t i = 0; i < scans; ++i) {
       const std::uint64_t version = served.Apply();
       const Clock::time_point begin = Clock::now();
-      const auto shown = (*mirror)->WaitFor(version, std::chrono::seconds(10));
+      const auto shown = mirror->WaitFor(version, std::chrono::seconds(10));
       if (!shown.ok()) state.SkipWithError("the mirror lost the server");
       lags_ms.push_back(MsSince(begin));
     }
@@ -94,33 +100,56 @@ void Lag(benchmark::State& state, std::size_t scans) {
   }
 }
 
-// The same states on the server's own scene and on the mirror's copy of it, by turns.
-void Checks(benchmark::State& state, DriveServer& served, Duration turn) {
-  const auto mirror = SceneMirror::Follow(*Connection::Open(served.address()));
-  const ScenePtr copy = (*mirror)->Latest();
-  if (!SameContent(*copy, *served.Newest())) state.SkipWithError("the mirror differs");
+Caller ChecksIn(const ScenePtr& scene, const std::vector<StateBatch>& batches) {
   const auto robot =
       std::make_shared<const PreparedRobot>(Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
+  CheckOptions options;
+  options.unknown = UnknownPolicy::kFree;
+  const auto checker = std::make_shared<SceneChecker>(scene, robot);
+  return [checker, options, &batches, next = std::size_t{0}]() mutable {
+    return checker->Check(batches[next++ % batches.size()], options).status();
+  };
+}
+
+// The same states on the server's own scene and on a mirror's copy of it, by turns: checks per
+// second there over here.
+double ChecksInMirrorVsLocal(benchmark::State& state, DriveServer& served, const ScenePtr& copy,
+                             Duration turn) {
+  if (!SameContent(*copy, *served.Newest())) state.SkipWithError("the mirror differs");
   RandomQuestions questions(served.GroundSpace(), 1);
   std::vector<StateBatch> batches;
   for (int i = 0; i < 8; ++i) batches.push_back(questions.States(1'000, {Pose{}}));
-  const auto caller = [&](const ScenePtr& scene) -> Caller {
-    CheckOptions options;
-    options.unknown = UnknownPolicy::kFree;
-    const auto checker = std::make_shared<SceneChecker>(scene, robot);
-    return [checker, options, &batches, next = std::size_t{0}]() mutable {
-      return checker->Check(batches[next++ % batches.size()], options).status();
-    };
-  };
-  const std::vector<Caller> local = {caller(served.Newest())}, mirrored = {caller(copy)};
+  const std::vector<Caller> local = {ChecksIn(served.Newest(), batches)};
+  const std::vector<Caller> mirrored = {ChecksIn(copy, batches)};
+  constexpr int kTurns = 8;  // short ones: what disturbs one side disturbs the other
+  double in_process = 0, in_mirror = 0;
+  for (int i = 0; i < kTurns; ++i) {
+    in_process += RunLoad(local, turn / 2)->CallsPerSecond();
+    in_mirror += RunLoad(mirrored, turn / 2)->CallsPerSecond();
+  }
+  return in_mirror / in_process;
+}
+
+// In a mirror that was just synchronized.
+void Checks(benchmark::State& state, DriveServer& served, Duration turn) {
+  const auto mirror = Follow(served);
   for (auto _ : state) {
-    constexpr int kTurns = 8;  // short ones: what disturbs one side disturbs the other
-    double in_process = 0, in_mirror = 0;
-    for (int i = 0; i < kTurns; ++i) {
-      in_process += RunLoad(local, turn / 2)->CallsPerSecond();
-      in_mirror += RunLoad(mirrored, turn / 2)->CallsPerSecond();
-    }
-    state.counters["mirror_vs_local_x"] = in_mirror / in_process;
+    state.counters["mirror_vs_local_x"] =
+        ChecksInMirrorVsLocal(state, served, mirror->Latest(), turn);
+  }
+}
+
+// In one that has followed so many scans since.
+void FollowedChecks(benchmark::State& state, DriveServer& served, std::size_t scans,
+                    Duration turn) {
+  const auto mirror = Follow(served);
+  std::uint64_t version = 0;
+  for (std::size_t i = 0; i < scans; ++i) version = served.Apply();
+  const auto copy = mirror->WaitFor(version, std::chrono::seconds(10));
+  if (!copy.ok()) return state.SkipWithError("the mirror lost the server");
+  for (auto _ : state) {
+    state.counters["mirror_following_vs_local_x"] =
+        ChecksInMirrorVsLocal(state, served, *copy, turn);
   }
 }
 
@@ -128,19 +157,12 @@ void Register(const Effort& effort) {
   const std::size_t scans = effort.quick ? 6 : 20;
   const auto served = std::make_shared<DriveServer>(scans);
   const Duration turn = std::chrono::milliseconds(effort.quick ? 500 : 2000);
-  const auto add = [&](const char* name, auto run) {
-    benchmark::RegisterBenchmark(name, run)
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(1)
-        ->Repetitions(effort.repetitions())
-        ->UseRealTime()
-        ->ReportAggregatesOnly();
-  };
   using State = benchmark::State;
   // First: a mirror lives in a planner's process, whose memory is not what other scenes left over.
-  add("checks", [=](State& s) { Checks(s, *served, turn); });
-  add("deltas", [=, drive = Drive()](State& s) { Deltas(s, drive, scans); });
-  add("lag", [=](State& s) { Lag(s, scans); });
+  Add("checks", effort, [=](State& s) { Checks(s, *served, turn); });
+  Add("checks_following", effort, [=](State& s) { FollowedChecks(s, *served, scans, turn); });
+  Add("deltas", effort, [=, drive = Drive()](State& s) { Deltas(s, drive, scans); });
+  Add("lag", effort, [=](State& s) { Lag(s, scans); });
 }
 
 }  // namespace

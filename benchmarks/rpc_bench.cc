@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "clearway/client/remote_checker.h"
+#include "clearway/client/scene_client.h"
 #include "drive_server.h"
 #include "rpc_calls.h"
 #include "summary.h"
@@ -35,10 +36,28 @@ LoadReport Measure(benchmark::State& state, const std::vector<Caller>& callers, 
   return {};
 }
 
+// Whether the answers on the wire are those of the scene in the server, asked point by point.
+bool AnswersAreTheScenes(Setting& setting, const QuestionSpace& space) {
+  RandomQuestions questions(space, 1);
+  const std::vector<Eigen::Vector3f> points_W = questions.Points(kPoints);
+  const std::vector<Time> times = questions.Times(kPoints);
+  const auto answers =
+      SceneClient(*Connection::Open(setting.served.address())).OccupancyOfPoints(points_W, times);
+  if (!answers.ok()) return false;
+  const ScenePtr scene = setting.served.Newest();
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const PointOccupancy expected = SceneAtTime(*scene, times[i]).At(points_W[i].cast<double>());
+    const PointOccupancy& answer = answers->points[i];
+    if (answer.status != expected.status || answer.object != expected.object) return false;
+  }
+  return true;
+}
+
 // As many callers as processors, each with batches of its own.
 void Points(benchmark::State& state, Setting& setting, Duration step) {
   QuestionSpace space = setting.served.Space();
   space.step = step;
+  if (!AnswersAreTheScenes(setting, space)) return state.SkipWithError("the answers differ");
   std::vector<Caller> points, echoes;
   for (int i = 0; i < setting.callers; ++i) {
     points.push_back(PointsCall(setting.served.address(), space, kPoints, i));
@@ -95,12 +114,7 @@ void States(benchmark::State& state, Setting& setting) {
 void Register(const Effort& effort) {
   const auto setting = std::make_shared<Setting>(effort);
   const auto add = [&](const char* name, auto run) {
-    benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { run(state, *setting); })
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(1)
-        ->Repetitions(effort.repetitions())
-        ->UseRealTime()
-        ->ReportAggregatesOnly();
+    Add(name, effort, [=](benchmark::State& state) { run(state, *setting); });
   };
   using State = benchmark::State;
   add("points", [](State& s, Setting& all) { Points(s, all, std::chrono::milliseconds(100)); });

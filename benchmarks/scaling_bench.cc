@@ -2,15 +2,11 @@
 // objects, and the length of a drive. Each value is a counter of its own, `curve_<what>_<x>`.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-#include <cstdio>
 #include <string>
 
-#include "clearway/collision/scene_checker.h"
-#include "clearway/map/voxel_reader.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/scene/scene_delta.h"
-#include "clearway/scene/timed_scene.h"
+#include "costs.h"
 #include "drive_map.h"
 #include "long_drive.h"
 #include "recorded_scans.h"
@@ -19,36 +15,11 @@
 namespace clearway::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-template <class Unit, class Work>
-double Took(Work&& work) {
-  const auto begin = Clock::now();
-  work();
-  return std::chrono::duration<double, Unit>(Clock::now() - begin).count();
-}
-
 SceneParams Params(double resolution_m, double range_m) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = resolution_m;
   params.rays = {range_m, false};
   return params;
-}
-
-// Of a scan applied and published while a reader holds the version before; the first is left out.
-double IntegrateMs(const std::vector<Frame>& frames, const SceneParams& params) {
-  ThreadPool pool(1);
-  SceneBuilder builder(params, {}, pool);
-  double sum_ms = 0;
-  ScenePtr held;
-  for (const Frame& frame : frames) {
-    const double ms = Took<std::milli>([&] {
-      if (!builder.Apply(frame).ok()) std::abort();
-      held = builder.Publish();
-    });
-    if (&frame != &frames.front()) sum_ms += ms;
-  }
-  return sum_ms / static_cast<double>(frames.size() - 1);
 }
 
 std::vector<Frame> Thinned(std::vector<Frame> frames, std::size_t one_of) {
@@ -64,51 +35,6 @@ std::vector<Frame> Thinned(std::vector<Frame> frames, std::size_t one_of) {
   return frames;
 }
 
-// Random points in the box, each at one of 64 times: ns a point.
-double LookupNs(const SceneSnapshot& scene, const Aabb& box_W) {
-  constexpr std::size_t kPoints = 100'000;
-  Dice dice;
-  std::vector<Eigen::Vector3d> points_W;
-  std::vector<Time> times;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    points_W.push_back(dice.PointIn(box_W));
-    times.push_back(scene.stamp + std::chrono::milliseconds(i % 64 * 78));
-  }
-  std::vector<PointOccupancy> answers(kPoints);
-  return Took<std::nano>([&] {
-           TimedScene timed(scene, scene.stamp, scene.stamp + FromSeconds(5));
-           timed.At(points_W, times, answers);
-         }) /
-         kPoints;
-}
-
-// A box of 4 x 1.8 x 1.5 m at random poses, unknown space free: ns a state.
-double CheckNs(const ScenePtr& scene, const Aabb& box_W) {
-  constexpr std::size_t kStates = 5'000;
-  const SceneChecker checker(scene, Robot::SingleShape("box", Box{Eigen::Vector3d(4, 1.8, 1.5)}));
-  CheckOptions options;
-  options.unknown = UnknownPolicy::kFree;
-  Dice dice;
-  StateBatch states;
-  for (std::size_t i = 0; i < kStates; ++i) {
-    states.T_W_L.push_back({dice.Rotation(), dice.PointIn(box_W)});
-    states.times.push_back(scene->stamp + std::chrono::milliseconds(i % 64 * 78));
-  }
-  return Took<std::nano>([&] {
-           if (!checker.Check(states, options).ok()) std::abort();
-         }) /
-         kStates;
-}
-
-ScenePtr SceneOf(const std::vector<Frame>& frames, const SceneParams& params) {
-  ThreadPool pool(1);
-  SceneBuilder builder(params, {}, pool);
-  for (const Frame& frame : frames) {
-    if (!builder.Apply(frame).ok()) std::abort();
-  }
-  return builder.Publish();
-}
-
 // Where robots drive: 20 m around the sensor, a few metres high.
 Aabb Around(const Eigen::Vector3d& center_W) {
   return {center_W - Eigen::Vector3d(20, 20, 2.5), center_W + Eigen::Vector3d(20, 20, 2.5)};
@@ -116,30 +42,33 @@ Aabb Around(const Eigen::Vector3d& center_W) {
 
 using Counters = benchmark::UserCounters;
 
+// Of scans with these parameters: integration, lookups anywhere in their map, checks around the
+// sensor.
+void Scans(Counters& counters, const std::string& x, const std::vector<Frame>& scans,
+           const SceneParams& params) {
+  const ScenePtr scene = SceneOf(scans, params);
+  counters["curve_integrate_ms_" + x] = IntegrateMs(scans, params);
+  counters["curve_lookup_ns_" + x] = LookupNs(*scene, scene->static_map_W.ObservedBox());
+  counters["curve_check_ns_" + x] = CheckNs(scene, Around(scans.front().T_W_S.translation));
+}
+
 void Points(Counters& counters, const std::vector<Frame>& scans) {
   for (const std::size_t one_of : {16, 8, 4, 2, 1}) {
     const std::vector<Frame> frames = Thinned(scans, one_of);
-    counters["curve_integrate_ms_points_" + std::to_string(frames[0].points_S.size())] =
-        IntegrateMs(frames, Params(0.1, 50));
+    Scans(counters, "points_" + std::to_string(frames[0].points_S.size()), frames, Params(0.1, 50));
   }
 }
 
 void Ranges(Counters& counters, const std::vector<Frame>& scans) {
   for (const int range_m : {10, 20, 30, 50, 80}) {
-    counters["curve_integrate_ms_range_m_" + std::to_string(range_m)] =
-        IntegrateMs(scans, Params(0.1, range_m));
+    Scans(counters, "range_m_" + std::to_string(range_m), scans, Params(0.1, range_m));
   }
 }
 
 void Resolutions(Counters& counters, const std::vector<Frame>& scans) {
   for (const int resolution_mm : {400, 200, 100, 50}) {
-    const SceneParams params = Params(1e-3 * resolution_mm, 50);
-    const std::string x = "resolution_mm_" + std::to_string(resolution_mm);
-    const ScenePtr scene = SceneOf(scans, params);
-    const Eigen::Vector3d center_W = scans.front().T_W_S.translation;
-    counters["curve_integrate_ms_" + x] = IntegrateMs(scans, params);
-    counters["curve_lookup_ns_" + x] = LookupNs(*scene, scene->static_map_W.ObservedBox());
-    counters["curve_check_ns_" + x] = CheckNs(scene, Around(center_W));
+    Scans(counters, "resolution_mm_" + std::to_string(resolution_mm), scans,
+          Params(1e-3 * resolution_mm, 50));
   }
 }
 
@@ -181,6 +110,7 @@ void Lengths(Counters& counters, const std::string& prefix, double keep_distance
     });
     SceneDelta delta;
     const double diff_ms = Took<std::milli>([&] { delta = Diff(&*before, *after); });
+    const double apply_delta_ms = Took<std::milli>([&] { (void)Apply(&*before, delta).value(); });
     const auto blocks = static_cast<double>(delta.static_map_W.size());
     const auto set = [&](const std::string& what, double value) {
       counters["curve_" + what + "_" + prefix + "drive_m_" + std::to_string(length_m)] = value;
@@ -188,6 +118,7 @@ void Lengths(Counters& counters, const std::string& prefix, double keep_distance
     set("changed_blocks", blocks);
     set("integrate_us_per_block", 1e3 * apply_ms / blocks);
     set("diff_us_per_block", 1e3 * diff_ms / blocks);
+    set("apply_delta_us_per_block", 1e3 * apply_delta_ms / blocks);
     set("lookup_ns", LookupNs(*after, after->static_map_W.ObservedBox()));
     set("check_ns", CheckNs(after, Around(frame.T_W_S.translation)));
     set("map_mb", 1e-6 * static_cast<double>(after->static_map_W.blocks().MemoryBytes()));
@@ -198,15 +129,9 @@ void Lengths(Counters& counters, const std::string& prefix, double keep_distance
 void Register(const Effort& effort) {
   const auto scans = std::make_shared<std::vector<Frame>>(WholeScans(effort.quick ? 3 : 6));
   const auto add = [&](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [=](benchmark::State& state) {
-                                   for (auto _ : state) run(state.counters);
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(1)
-        ->Repetitions(effort.repetitions())
-        ->UseRealTime()
-        ->ReportAggregatesOnly();
+    Add(name, effort, [=](benchmark::State& state) {
+      for (auto _ : state) run(state.counters);
+    });
   };
   add("points", [=](Counters& counters) { Points(counters, *scans); });
   add("ranges", [=](Counters& counters) { Ranges(counters, *scans); });

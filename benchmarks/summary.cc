@@ -1,7 +1,5 @@
 #include "summary.h"
 
-#include <benchmark/benchmark.h>
-
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -46,6 +44,14 @@ struct Flags {
   std::filesystem::path out = std::filesystem::path(CLEARWAY_SOURCE_DIR) / "benchmarks" / "out";
 };
 
+void PrintHelp() {
+  std::puts(
+      "--quick    fewer scans and repetitions\n"
+      "--out DIR  where summary.json is written (benchmarks/out in the source tree)\n"
+      "Google Benchmark's own flags:");
+  benchmark::PrintDefaultHelp();
+}
+
 // Takes our flags out of the arguments.
 Flags TakeFlags(int& argc, char** argv) {
   Flags flags;
@@ -75,17 +81,27 @@ void AddToSummary(const std::filesystem::path& folder, const nlohmann::json& num
 
 }  // namespace
 
+void Add(const std::string& name, const Effort& effort,
+         const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(1)
+      ->Repetitions(effort.repetitions())
+      ->UseRealTime()
+      ->ReportAggregatesOnly();
+}
+
 int Main(int argc, char** argv, const std::function<void(const Effort&)>& register_all,
          const std::vector<Ratio>& ratios, Order order) {
   const Flags flags = TakeFlags(argc, argv);
-  register_all(flags.effort);
   std::vector<char*> arguments(argv, argv + argc);
   std::string in_turns = "--benchmark_enable_random_interleaving=true";
   if (order == Order::kInTurns) arguments.insert(arguments.begin() + 1, in_turns.data());
   argc = static_cast<int>(arguments.size());
   argv = arguments.data();
-  benchmark::Initialize(&argc, argv);
+  benchmark::Initialize(&argc, argv, PrintHelp);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  register_all(flags.effort);
   MedianReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   nlohmann::json numbers = nlohmann::json::object();

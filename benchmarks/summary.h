@@ -1,6 +1,8 @@
 // What every benchmark program does: run, print, and add its numbers to one summary.
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +14,11 @@ struct Effort {
   bool quick = false;
   int repetitions() const { return quick ? 3 : 7; }
 };
+
+// Registers a benchmark that measures by itself: run(state) is called once for each repetition, and
+// loops over the state once. Its time is real time, in ms.
+void Add(const std::string& name, const Effort& effort,
+         const std::function<void(benchmark::State&)>& run);
 
 // A number of the summary that is made of two others, divided: the median times of benchmarks, or
 // the medians of their counters.

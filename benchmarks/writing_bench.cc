@@ -1,6 +1,7 @@
 // Latency of queries while scans of a real drive arrive at 10 Hz, against the same queries beside a
-// thread that burns as much processor time without touching the scene. The two take turns. Server,
-// sensor and client are three processes.
+// thread that burns as much processor time without touching the scene: once with the share that
+// threads usually have, once with the smaller one of the server's writer. The three take turns.
+// Server, sensor and client are three processes.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -14,6 +15,8 @@
 #include "clients/server_process.h"
 #include "rpc_calls.h"
 #include "scan_process.h"
+#include "server/config.h"
+#include "server/thread_priority.h"
 #include "summary.h"
 
 namespace clearway::bench {
@@ -23,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kPoints = 1'000;
 constexpr std::chrono::milliseconds kPeriod(100);
+constexpr std::chrono::seconds kTurn(1);  // of one side
 
 double SecondsOf(clockid_t clock) {
   timespec now{};
@@ -40,7 +44,7 @@ double ProcessSeconds(pid_t pid) {
 // A thread that takes so much processor time in each 0.1 s, or all it can get if that is more.
 class Burner {
  public:
-  explicit Burner(double seconds) : seconds_(seconds) {}
+  Burner(double seconds, int niceness) : seconds_(seconds), niceness_(niceness) {}
   ~Burner() {
     stop_ = true;
     thread_.join();
@@ -48,6 +52,7 @@ class Burner {
 
  private:
   void Run() {
+    GiveWay(niceness_);
     Clock::time_point next = Clock::now();
     while (!stop_) {
       const double end = SecondsOf(CLOCK_THREAD_CPUTIME_ID) + seconds_;
@@ -61,13 +66,14 @@ class Burner {
   }
 
   const double seconds_;
+  const int niceness_;
   std::atomic<bool> stop_ = false;
   std::thread thread_{[this] { Run(); }};
 };
 
 class Setting {
  public:
-  explicit Setting(const Effort& effort) : turn_(std::chrono::seconds(effort.quick ? 1 : 2)) {
+  explicit Setting(const Effort& effort) {
     scans_.Connect(server_.address());
     scans_.Push(effort.quick ? 6 : 20);
   }
@@ -77,11 +83,13 @@ class Setting {
   // Batches whose times stay ahead of the scans that arrive meanwhile.
   LoadReport Ask() {
     const auto scene = SceneClient(*Connection::Open(server_.address())).GetStatus();
-    const QuestionSpace space{scene->static_box_W, scene->stamp + turn_, std::chrono::seconds(2)};
-    auto report = RunLoad({PointsCall(server_.address(), space, kPoints, 1)}, turn_);
+    const QuestionSpace space{scene->static_box_W, scene->stamp + kTurn, std::chrono::seconds(2)};
+    auto report = RunLoad({PointsCall(server_.address(), space, kPoints, 1)}, kTurn);
     if (!report.ok()) std::abort();
     return *std::move(report);
   }
+
+  LoadReport AskBeside(const Burner&) { return Ask(); }
 
   // Processor time that one scan takes, the sensor's part included.
   double SecondsPerScan() {
@@ -95,7 +103,6 @@ class Setting {
 
   ScanProcess scans_;  // forks before there are threads
   ServerProcess server_{{"--threads", "1", "--scene-max-range-m", "50"}};
-  Duration turn_;  // of one side
 };
 
 // Of several loads, as if of one.
@@ -117,39 +124,34 @@ class Pooled {
   double seconds_ = 0;
 };
 
-// Short turns: what disturbs one side disturbs the other.
+// Short turns: what disturbs one side disturbs the others.
 void Writing(benchmark::State& state, Setting& setting) {
-  constexpr int kTurns = 4;
+  constexpr int kTurns = 8;
   for (auto _ : state) {
     const double seconds_per_scan = setting.SecondsPerScan();
-    Pooled burning, writing;
+    Pooled burning, burning_behind, writing;
     int scans = 0;
     for (int turn = 0; turn < kTurns; ++turn) {
-      {
-        const Burner burner(seconds_per_scan);
-        burning.Add(setting.Ask());
-      }
+      burning.Add(setting.AskBeside(Burner(seconds_per_scan, 0)));
+      burning_behind.Add(
+          setting.AskBeside(Burner(seconds_per_scan, ServerConfig().writer_niceness)));
       setting.scans().Start();
       writing.Add(setting.Ask());
       scans += setting.scans().Stop();
     }
+    const double p99_ms = writing.LatencyMs(0.99);
     state.counters["writing_scans_per_s"] = scans / writing.seconds();
-    state.counters["query_p99_while_writing_x"] = writing.LatencyMs(0.99) / burning.LatencyMs(0.99);
+    state.counters["query_p99_while_writing_x"] = p99_ms / burning.LatencyMs(0.99);
+    state.counters["query_p99_while_writing_vs_nice_x"] = p99_ms / burning_behind.LatencyMs(0.99);
     state.counters["query_p50_while_writing_x"] = writing.LatencyMs(0.5) / burning.LatencyMs(0.5);
-    state.counters["query_p99_while_writing_ms"] = writing.LatencyMs(0.99);
+    state.counters["query_p99_while_writing_ms"] = p99_ms;
     state.counters["writing_cpu_ms_per_scan"] = 1e3 * seconds_per_scan;
   }
 }
 
 void Register(const Effort& effort) {
   const auto setting = std::make_shared<Setting>(effort);
-  benchmark::RegisterBenchmark("writing",
-                               [=](benchmark::State& state) { Writing(state, *setting); })
-      ->Unit(benchmark::kMillisecond)
-      ->Iterations(1)
-      ->Repetitions(effort.repetitions())
-      ->UseRealTime()
-      ->ReportAggregatesOnly();
+  Add("writing", effort, [=](benchmark::State& state) { Writing(state, *setting); });
 }
 
 }  // namespace
