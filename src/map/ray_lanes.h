@@ -31,16 +31,6 @@ inline void Put(const RaySegment& segment, int lane, RaySegments& segments) {
   }
 }
 
-// Of one ray, eight times.
-inline RaySegments EightOf(const RaySegment& segment) {
-  RaySegments segments;
-  for (int axis = 0; axis < 3; ++axis) {
-    segments.origin[axis] = LaneFloats{} + segment.origin[axis];
-    segments.end[axis] = LaneFloats{} + segment.end[axis];
-  }
-  return segments;
-}
-
 // What RayStart is for one ray, bit for bit.
 struct RayLanes {
   LaneInts key[3], end[3];  // voxels: x, y, z

@@ -25,20 +25,22 @@ inline int MainAxis(const Eigen::Vector3f& direction) {
 class RayRounds {
  public:
   static constexpr std::size_t kCount = 3;
-  static constexpr std::size_t kInARow = 13;  // that are dealt; divides hardly any camera's width
+  // Rays in a row, of which each round has its share. Hardly any camera's width is a multiple.
+  static constexpr std::size_t kInARow = 13;
 
   void Clear();
   void Add(const RaySegment& ray) {
     waiting_[size_ % kDealtTogether] = ray;
     if (++size_ % kDealtTogether == 0) Deal();
   }
-  // After the last ray.
+  // Once, after the last ray.
   void Finish();
 
   std::size_t size() const { return size_; }
   // Once finished. Some may be rays that go nowhere.
   const std::vector<RaySegments>& round(std::size_t i) const { return rounds_[i]; }
-  // Where all rays begin, and where they end. Looks at each.
+  // Where all rays begin, and where they end, those that go nowhere too. There must be a ray. Looks
+  // at each.
   struct Boxes {
     Eigen::AlignedBox3f origins, ends;
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace clearway {
 namespace {
@@ -70,7 +71,8 @@ LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameRep
   const bool one_origin = frame.origins_S.empty();
   if (one_origin) cloud.origins_W = {T_W_S.translation.cast<float>()};
   // A point that is not finite lies in no box.
-  const bool usable_by_place = one_origin && params.self_filter_S.empty();
+  const bool usable_by_place =
+      one_origin && grid.Addressable(T_W_S.translation) && params.self_filter_S.empty();
   const Aabb usable_W = UsableBox(params, grid);
   std::array<Eigen::Vector3d, kTogether> ends_W;
   for (std::size_t i = 0; i < size; ++i) {

@@ -29,6 +29,7 @@ Frame MixedFrame(Random& random) {
 
 void ExpectSame(const LabelledCloud& a, const LabelledCloud& b) {
   EXPECT_EQ(a.ends_W, b.ends_W);
+  for (const Eigen::Vector3f& origin_W : b.origins_W) EXPECT_EQ(origin_W, a.origins_W.at(0));
   EXPECT_EQ(a.kinds, b.kinds);
   EXPECT_EQ(a.labels, b.labels);
   EXPECT_EQ(a.object_hits, b.object_hits);
@@ -45,10 +46,11 @@ TEST(PlaceCloud, TheQuickWayIsTheLongWay) {
     if (i % 2 == 0) params.bounds_W = {Eigen::Vector3d(-5, -6, -4), Eigen::Vector3d(5, 4, 6)};
     FrameReport quick, filtered, with_origins;
     const LabelledCloud cloud = PlaceCloud(frame, params, quick);
-    params.self_filter_S = {{Eigen::Vector3d(90, 90, 90), Eigen::Vector3d(91, 91, 91)}};
-    ExpectSame(cloud, PlaceCloud(frame, params, filtered));
     frame.origins_S.assign(frame.points_S.size(), Eigen::Vector3f::Zero());
     ExpectSame(cloud, PlaceCloud(frame, params, with_origins));
+    frame.origins_S.clear();
+    params.self_filter_S = {{Eigen::Vector3d(90, 90, 90), Eigen::Vector3d(91, 91, 91)}};
+    ExpectSame(cloud, PlaceCloud(frame, params, filtered));
     for (const FrameReport& report : {filtered, with_origins}) {
       EXPECT_EQ(report.points_used, quick.points_used);
       EXPECT_EQ(report.points_ignored, quick.points_ignored);

@@ -1,0 +1,66 @@
+// Clouds of rays against a walk along each.
+#include "clearway/map/ray_caster.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+std::set<VoxelKey> FreeIn(const ScanUpdate& update) {
+  std::set<VoxelKey> voxels;
+  for (std::size_t i = 0; i < update.keys().size(); ++i) {
+    update.block(i).free.ForEach([&](int at) { voxels.insert(VoxelAt(update.keys()[i], at)); });
+  }
+  return voxels;
+}
+
+// More rays than are dealt to rounds at once, and not a multiple of them.
+void ExpectWalkOfEach(const std::vector<Eigen::Vector3f>& origins,
+                      const std::vector<Eigen::Vector3f>& ends, double resolution_m) {
+  const VoxelGrid grid(resolution_m);
+  std::set<VoxelKey> expected;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    WalkRay(grid, origins.size() == 1 ? origins[0] : origins[i], ends[i],
+            [&](VoxelKey key) { expected.insert(key); });
+  }
+  const std::vector<RayEnd> kinds(ends.size(), RayEnd::kClear);
+  for (const int threads : {1, 3}) {
+    ThreadPool pool(threads);
+    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, {ends, kinds, origins}, {})), expected);
+  }
+}
+
+std::vector<Eigen::Vector3f> Points(std::size_t count, double within_m, Random& random) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < count; ++i) points.push_back(random.Vector(within_m).cast<float>());
+  return points;
+}
+
+TEST(RayCaster, FromOneOrigin) {
+  Random random(1);
+  for (const std::size_t count : {1, 104, 2'000}) {
+    ExpectWalkOfEach({{0.3f, 0.2f, -0.1f}}, Points(count, 5, random), 0.1);
+  }
+}
+
+TEST(RayCaster, FromAnOriginForEach) {
+  Random random(2);
+  const auto ends = Points(2'000, 5, random);
+  ExpectWalkOfEach(Points(ends.size(), 0.5, random), ends, 0.1);
+}
+
+// Farther than any window of bits reaches.
+TEST(RayCaster, FarRays) {
+  Random random(3);
+  ExpectWalkOfEach({{0, 0, 0}}, Points(250, 3'000, random), 1);
+}
+
+}  // namespace
+}  // namespace clearway
