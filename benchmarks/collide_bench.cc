@@ -157,7 +157,7 @@ void Register(const Effort& effort) {
     benchmark::RegisterBenchmark(name.c_str(), run)
         ->Unit(benchmark::kMillisecond)
         ->MinTime(kTurn_s)
-        ->Repetitions(3 * effort.repetitions())
+        ->Repetitions(3 * effort.repetitions)
         ->ReportAggregatesOnly();
   };
   for (const auto& [name, shape] : BenchShapes()) {

@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
@@ -80,7 +81,7 @@ class Integrator {
   // Back to empty maps, with the memory of what it has taken.
   void Reset() {
     builder_.Reset();
-    held_ = builder_.Publish();  // so that no scan pays for the end of the maps before
+    held_ = builder_.Publish();  // the end of the maps before, which no scan shall pay for
     publishing_ = Milliseconds(0);
   }
 
@@ -144,7 +145,8 @@ void AddPair(const std::string& name, const Effort& effort, const InputPtr& inpu
   Add("clearway_" + name, effort, [=](auto& state) { Clearway(state, *input, discretize); });
 }
 
-void Register(const Effort& effort) {
+void Register(Effort effort) {
+  effort.repetitions = std::min(effort.repetitions, 5);  // OctoMap takes minutes for each
   const auto whole = std::make_shared<Input>(WholeScans(effort.quick ? 3 : 20), 0.1, 50);
   Add("octomap_whole", effort,
       [=](auto& state) { state.counters["octomap_memory_mb"] = Octomap(state, *whole, false); });

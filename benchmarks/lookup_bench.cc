@@ -83,7 +83,7 @@ void Register(const Effort& effort) {
     benchmark::RegisterBenchmark(name.c_str(), [=](auto& state) { run(state, *drive, points); })
         ->Unit(benchmark::kMillisecond)
         ->MinTime(kTurn_s)
-        ->Repetitions(3 * effort.repetitions())
+        ->Repetitions(3 * effort.repetitions)
         ->ReportAggregatesOnly();
   };
   const Points random = RandomPoints(all_W, 1'000'000), lines = PointsOnLines(all_W, 100'000);

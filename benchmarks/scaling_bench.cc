@@ -2,6 +2,8 @@
 // objects, and the length of a drive. Each value is a counter of its own, `curve_<what>_<x>`.
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
+#include <memory>
 #include <string>
 
 #include "clearway/scene/scene_builder.h"
@@ -110,7 +112,9 @@ void Lengths(Counters& counters, const std::string& prefix, double keep_distance
     });
     SceneDelta delta;
     const double diff_ms = Took<std::milli>([&] { delta = Diff(&*before, *after); });
-    const double apply_delta_ms = Took<std::milli>([&] { (void)Apply(&*before, delta).value(); });
+    absl::StatusOr<SceneSnapshot> mirrored;
+    const double apply_delta_ms = Took<std::milli>([&] { mirrored = Apply(&*before, delta); });
+    if (!mirrored.ok()) std::abort();
     const auto blocks = static_cast<double>(delta.static_map_W.size());
     const auto set = [&](const std::string& what, double value) {
       counters["curve_" + what + "_" + prefix + "drive_m_" + std::to_string(length_m)] = value;

@@ -58,7 +58,7 @@ Flags TakeFlags(int& argc, char** argv) {
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--quick") == 0) {
-      flags.effort.quick = true;
+      flags.effort = {true, 3};
     } else if (std::strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
       flags.out = argv[++i];
     } else {
@@ -86,7 +86,7 @@ void Add(const std::string& name, const Effort& effort,
   benchmark::RegisterBenchmark(name.c_str(), run)
       ->Unit(benchmark::kMillisecond)
       ->Iterations(1)
-      ->Repetitions(effort.repetitions())
+      ->Repetitions(effort.repetitions)
       ->UseRealTime()
       ->ReportAggregatesOnly();
 }

@@ -12,7 +12,7 @@ namespace clearway::bench {
 // How much is measured.
 struct Effort {
   bool quick = false;
-  int repetitions() const { return quick ? 3 : 7; }
+  int repetitions = 7;
 };
 
 // Registers a benchmark that measures by itself: run(state) is called once for each repetition, and
