@@ -76,7 +76,7 @@ class Setting {
  public:
   Setting() {
     scans_.Connect(server_.address());
-    scans_.Push(2 * kScans);  // forth and back: the server's memory is in use as later
+    scans_.Push(2 * kScans);  // forth and back
   }
 
   ScanProcess& scans() { return scans_; }

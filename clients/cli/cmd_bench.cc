@@ -105,6 +105,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   }
   output.connections = callers.size();
   auto report = RunLoad(callers, FromSeconds(flags.seconds));
+  if (absl::IsResourceExhausted(report.status())) {
+    return InContext(absl::StrCat("--", output.items, " ", output.batch), report.status());
+  }
   if (!report.ok()) return report.status();
   output.report = *std::move(report);
   flags.json ? PrintBenchJson(terminal.out, output) : PrintBenchText(terminal.out, output);

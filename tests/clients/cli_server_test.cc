@@ -296,6 +296,7 @@ TEST_F(CliServer, BenchSaysWhatIsWrong) {
   const Finished large =
       Clearway({"bench", "--points", "5000000", "--bounds", "0,0,0,1,1,1", "--seconds", "0.1"});
   EXPECT_EQ(large.exit_code, 1);
+  EXPECT_THAT(large.err, HasSubstr("--points 5000000: request: holds 8"));
   EXPECT_THAT(large.err, HasSubstr("the limit is"));
 }
 
