@@ -82,10 +82,10 @@ void AddToSummary(const std::filesystem::path& folder, const nlohmann::json& num
 }  // namespace
 
 void Add(const std::string& name, const Effort& effort,
-         const std::function<void(benchmark::State&)>& run) {
+         const std::function<void(benchmark::State&)>& run, int iterations) {
   benchmark::RegisterBenchmark(name.c_str(), run)
       ->Unit(benchmark::kMillisecond)
-      ->Iterations(1)
+      ->Iterations(iterations)
       ->Repetitions(effort.repetitions)
       ->UseRealTime()
       ->ReportAggregatesOnly();

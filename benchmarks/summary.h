@@ -16,9 +16,9 @@ struct Effort {
 };
 
 // Registers a benchmark that measures by itself: run(state) is called once for each repetition, and
-// loops over the state once. Its time is real time, in ms.
+// loops over the state, which goes on for `iterations`. Its time is real time, in ms, of one.
 void Add(const std::string& name, const Effort& effort,
-         const std::function<void(benchmark::State&)>& run);
+         const std::function<void(benchmark::State&)>& run, int iterations = 1);
 
 // A number of the summary that is made of two others, divided: the median times of benchmarks, or
 // the medians of their counters.

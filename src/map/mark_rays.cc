@@ -60,11 +60,10 @@ class Marker {
   void SkipMarked(std::span<const RaySegments> segments, RayBatch& started) {
     BatchDoubles until_m{};
     for (std::size_t i = 0; i < segments.size(); ++i) {
+      const auto& [origin, end] = segments[i];
+      const LaneFloats direction[3] = {end[0] - origin[0], end[1] - origin[1], end[2] - origin[2]};
       LaneDoubles depth_m;
-      for (int lane = 0; lane < kRayLanes; ++lane) {
-        const auto [origin, end] = SegmentIn(segments[i], lane);
-        depth_m[lane] = cones_->Depth_m(end - origin, window_);
-      }
+      cones_->FindDepths(direction, window_, depth_m);
       const LaneDoubles marked_m = depth_m * (started[i].t_delta[axis_] / grid_.resolution_m());
       const LaneDoubles before_end_m = started[i].length_m - 2 * grid_.resolution_m();
       until_m[i] = marked_m < before_end_m ? marked_m : before_end_m;

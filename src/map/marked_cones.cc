@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/multiversion.h"
+
 namespace clearway {
 namespace {
 
@@ -15,9 +17,28 @@ std::int32_t RoundDown(double value) {
   return toward_zero - static_cast<std::int32_t>(value < toward_zero);
 }
 
+// In a square of `across` by `across` cells, row by row, those of eight directions.
+CLEARWAY_MULTIVERSION void CellsOf(const LaneFloats& main, const LaneFloats& b, const LaneFloats& c,
+                                   int across, LaneInts& cell) {
+  const int half = across / 2;
+  const LaneFloats most = LaneFloats{} + static_cast<float>(half - 1);
+  const LaneFloats scale = static_cast<float>(half) / (main < 0 ? -main : main);
+  const auto place = [&](const LaneFloats& other, LaneInts& along) {
+    // Whatever rounds: no cone has directions of both signs.
+    const LaneFloats cells = scale * other;  // perhaps not a number
+    const LaneFloats outward = cells < 0 ? -cells : cells;
+    const LaneInts steps = __builtin_convertvector(outward < most ? outward : most, LaneInts);
+    along = other < 0 ? half - 1 - steps : half + steps;
+  };
+  LaneInts row;
+  place(b, cell);
+  place(c, row);
+  cell += across * row;
+}
+
 }  // namespace
 
-// A cone's least and greatest slopes along an axis, widened by what Depth_m rounds.
+// A cone's least and greatest slopes along an axis, widened by what FindDepths rounds.
 struct MarkedCones::Slopes {
   Slopes(int cell, int across)
       : least(2 * (cell - kRounding) / across - 1),
@@ -44,16 +65,18 @@ MarkedCones::MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, i
   for (int level = 0; level < kLevels; ++level) levels_.emplace_back(across >> level);
 }
 
-double MarkedCones::Depth_m(const Eigen::Vector3f& direction, const BitWindow& window) {
-  const int half = levels_[0].across / 2;
-  const float scale = static_cast<float>(half) / std::abs(direction[axis_]);
-  const auto along = [&](int axis) {
-    // Whatever rounds: no cone has directions of both signs.
-    const float outward = std::abs(scale * direction[axis]);  // perhaps not a number
-    const int cell = outward < static_cast<float>(half - 1) ? static_cast<int>(outward) : half - 1;
-    return direction[axis] < 0 ? half - 1 - cell : half + cell;
-  };
-  return (LayerBegin(Layers(0, along(b_), along(c_), window)) - kStrayVoxels) * resolution_m_;
+void MarkedCones::FindDepths(const LaneFloats (&direction)[3], const BitWindow& window,
+                             LaneDoubles& depths_m) {
+  Level& narrow = levels_[0];
+  LaneInts cell;
+  CellsOf(direction[axis_], direction[b_], direction[c_], narrow.across, cell);
+  for (int lane = 0; lane < kRayLanes; ++lane) {
+    const Cone& cone = narrow.cones[cell[lane]];
+    const int layers = cone.looked_in == round_ ? cone.layers
+                                                : Layers(0, cell[lane] % narrow.across,
+                                                         cell[lane] / narrow.across, window);
+    depths_m[lane] = (LayerBegin(layers) - kStrayVoxels) * resolution_m_;
+  }
 }
 
 int MarkedCones::Layers(int level, int b, int c, const BitWindow& window) {

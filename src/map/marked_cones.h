@@ -8,6 +8,7 @@
 
 #include "clearway/map/voxel_key.h"
 #include "map/bit_window.h"
+#include "map/lanes.h"
 
 namespace clearway {
 
@@ -24,9 +25,9 @@ class MarkedCones {
   MarkedCones(const VoxelGrid& grid, const Eigen::Vector3d& origin, int main_axis, bool negative,
               int across);
 
-  // All voxels that a ray in this direction passes before this depth are marked in the window.
-  // Metres. Looks at most once a round for each cone.
-  double Depth_m(const Eigen::Vector3f& direction, const BitWindow& window);
+  // Of eight rays in direction[x, y, z]: all voxels that each passes before its depth, in metres,
+  // are marked in the window. Looks at most once a round for each cone.
+  void FindDepths(const LaneFloats (&direction)[3], const BitWindow& window, LaneDoubles& depths_m);
   // More has been marked: look again.
   void NextRound() { ++round_; }
 
