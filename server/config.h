@@ -19,7 +19,7 @@ struct ServerConfig {
   std::string tls_cert, tls_key;  // PEM files
   std::string log_level = "info";
   int threads = 0;                   // that apply frames; 0: as many as the machine has
-  int writer_niceness = 19;          // of those threads: 0, as those that answer, to 19
+  int writer_niceness = 5;           // of those threads: 0, as those that answer, to 19
   std::uint64_t kept_versions = 16;  // beside the newest, for mirrors that fell behind
   SceneParams scene;
   ServerLimits limits;

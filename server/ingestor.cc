@@ -3,7 +3,6 @@
 #include <exception>
 
 #include "absl/strings/str_cat.h"
-#include "server/thread_priority.h"
 #include "spdlog/spdlog.h"
 #include "wire/status.h"
 
@@ -28,7 +27,8 @@ Ingestor::Ingestor(const Options& options, Versions& versions)
     : options_(options),
       versions_(versions),
       pool_(options.threads),
-      builder_(options.scene, options.frames, pool_) {
+      builder_(options.scene, options.frames, pool_),
+      alarms_(options.threads) {
   versions_.Publish(builder_.Publish());
   writer_ = std::thread([this] { Run(); });
 }
@@ -136,11 +136,13 @@ Ingestor::Answer Ingestor::Do(Job& job) {
   }
 }
 
-// Gives the threads that apply frames a smaller share of a busy machine: who asks waits for an
-// answer, while a frame that comes late is only late.
+// Gives the threads that apply frames a smaller share of a busy machine, and lets others in before
+// they are done: who asks waits for an answer, while a frame that comes late is only late.
 void Ingestor::MakeThreadsGiveWay() {
-  pool_.ParallelFor(pool_.threads(),
-                    [this](int, std::size_t, std::size_t) { GiveWay(options_.niceness); });
+  pool_.ParallelFor(pool_.threads(), [this](int worker, std::size_t, std::size_t) {
+    GiveWay(options_.niceness);
+    alarms_[worker].emplace();
+  });
 }
 
 void Ingestor::Run() {
@@ -153,7 +155,9 @@ void Ingestor::Run() {
     queue_.pop_front();
     changed_.notify_all();
     lock.unlock();
+    for (auto& alarm : alarms_) alarm->Start();
     Answer answer = Do(*job);
+    for (auto& alarm : alarms_) alarm->Stop();
     lock.lock();
     if (job->is_frame) {
       ++(answer.ok() ? counts_.frames_applied : counts_.frames_refused);

@@ -13,11 +13,13 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/wire/push_ack.h"
+#include "server/thread_priority.h"
 #include "server/versions.h"
 
 namespace clearway {
@@ -100,7 +102,8 @@ class Ingestor {
   const Options options_;
   Versions& versions_;
   ThreadPool pool_;
-  SceneBuilder builder_;  // the writer thread's alone
+  SceneBuilder builder_;                          // the writer thread's alone
+  std::vector<std::optional<TurnAlarm>> alarms_;  // of the pool's threads, while they apply
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -1,11 +1,14 @@
 #include "server/thread_priority.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <thread>
 
@@ -32,15 +35,6 @@ TEST(ThreadPriority, ShortTurnsPassToThreadsStartedLater) {
   }).join();
 }
 
-TEST(ThreadPriority, GivingWayEndsShortTurns) {
-  std::thread([] {
-    const std::uint64_t usual_ns = Turn_ns();
-    PreferShortTurns();
-    GiveWay(Niceness());
-    EXPECT_EQ(Turn_ns(), usual_ns);
-  }).join();
-}
-
 TEST(ThreadPriority, OneThreadAloneGivesWay) {
   const int before = Niceness();
   std::thread([&] {
@@ -55,6 +49,32 @@ TEST(ThreadPriority, NeverGrowsMoreImportant) {
     GiveWay(7);
     GiveWay(3);
     EXPECT_GE(Niceness(), 7);
+  }).join();
+}
+
+std::atomic<int> alarms = 0;  // by which a thread was interrupted
+
+// Computes until the thread was interrupted so often; false if that takes unduly long.
+bool InterruptedTimes(int count) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (alarms < count && std::chrono::steady_clock::now() < end) {
+  }
+  return alarms >= count;
+}
+
+TEST(TurnAlarm, InterruptsItsThreadWhileItRuns) {
+  struct sigaction count {};
+  count.sa_handler = [](int) { ++alarms; };
+  ASSERT_EQ(sigaction(TurnAlarm::Signal(), &count, nullptr), 0);
+  std::thread([] {
+    TurnAlarm dut;
+    EXPECT_EQ(alarms, 0);
+    dut.Start();
+    EXPECT_TRUE(InterruptedTimes(5));
+    dut.Stop();
+    const int before = alarms;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(alarms, before);
   }).join();
 }
 
