@@ -20,7 +20,7 @@ void GiveWay(int niceness);
 // 1 to 10 ms apart, whether a thread's turn is over; a running alarm makes it look each 0.25 ms.
 class TurnAlarm {
  public:
-  TurnAlarm();  // not running; on the thread it is for, which must outlive it
+  TurnAlarm();  // not running; on the thread it is for, which must not end while it runs
   ~TurnAlarm();
   TurnAlarm(const TurnAlarm&) = delete;
   TurnAlarm& operator=(const TurnAlarm&) = delete;

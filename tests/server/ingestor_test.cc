@@ -1,10 +1,14 @@
 #include "server/ingestor.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <atomic>
+#include <chrono>
 #include <future>
 
 #include "server/leases.h"
+#include "server/thread_priority.h"
 #include "support/frames.h"
 #include "wire/status.h"
 
@@ -64,6 +68,26 @@ TEST_F(IngestorTest, AnAnswerNamesTheFirstVersionWithTheFrame) {
   EXPECT_EQ(second->reached, AckLevel::kApplied);
   EXPECT_EQ(second->report.points_used, 1u);
   EXPECT_EQ(versions_.Newest()->version, 3u);
+}
+
+std::atomic<int> alarms = 0;
+
+// Else it kept a processor from who asks until the kernel's next tick.
+TEST_F(IngestorTest, TheWriterIsInterruptedWhileItApplies) {
+  // After this its alarm is there, and with it the handler.
+  ASSERT_TRUE(Push(Numbered(1, 1)).ok());
+  struct sigaction count {};
+  count.sa_handler = [](int) { ++alarms; };
+  ASSERT_EQ(sigaction(TurnAlarm::Signal(), &count, nullptr), 0);
+  const auto ticket = dut_->Apply([](SceneBuilder&) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (alarms < 3 && std::chrono::steady_clock::now() < end) {
+    }
+    return absl::OkStatus();
+  });
+  ASSERT_TRUE(ticket.ok());
+  EXPECT_TRUE(Ingestor::Wait(*ticket, kNever).ok());
+  EXPECT_GE(alarms, 3);
 }
 
 TEST_F(IngestorTest, ARepeatGetsTheFirstAnswerAndChangesNothing) {
