@@ -59,7 +59,8 @@ CheckOptions UnknownIsFree() {
   return options;
 }
 
-// Sets how many answers differ from FCL's.
+// Sets how many answers differ from FCL's, to which a mesh is a surface: a voxel inside one counts
+// for ours alone.
 void Collide(benchmark::State& state, const std::string& name, const Case& c) {
   std::vector<StateAnswer> answers;
   for (auto _ : state) answers = std::move(*c.checker->Check(c.states, UnknownIsFree())).answers;
@@ -161,8 +162,7 @@ void Register(const Effort& effort) {
         ->ReportAggregatesOnly();
   };
   for (const auto& [name, shape] : BenchShapes()) {
-    const bool mesh = name == "mesh";
-    const auto c = std::make_shared<Case>(MakeCase(drive, shape, mesh ? 400 : 10'000));
+    const auto c = std::make_shared<Case>(MakeCase(drive, shape, 10'000));
     add("fcl_" + name, [=](auto& state) { FclCollide(state, *c); });
     add("clearway_" + name, [=, name = name](auto& state) { Collide(state, name, *c); });
     if (name == "sphere") {

@@ -12,6 +12,10 @@ namespace clearway::bench {
 namespace {
 
 constexpr double kPeriod_s = 0.1;  // between frames
+constexpr double kApart_m = 5;     // of objects in a crowd
+
+// Of the square that a crowd is arranged in: objects along a side.
+int SideOf(int count) { return static_cast<int>(std::ceil(std::sqrt(count))); }
 
 ScenePtr Integrate(const std::vector<Frame>& scans) {
   ThreadPool pool(1);
@@ -40,7 +44,7 @@ std::shared_ptr<octomap::OcTree> ToOctomap(const VoxelMap& map) {
 
 std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d& center_W,
                                      int frames) {
-  const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+  const int side = SideOf(count);
   std::vector<Frame> made;
   for (int k = 0; k < frames; ++k) {
     const double ahead_s = kPeriod_s * (k + 1 - frames);
@@ -52,7 +56,7 @@ std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d
       const Eigen::Vector3d velocity_W(std::cos(i), std::sin(i), 0);
       const Eigen::Vector3d middle_W =
           center_W + ahead_s * velocity_W +
-          5.0 * Eigen::Vector3d(i % side - side / 2, i / side - side / 2, 0);
+          kApart_m * Eigen::Vector3d(i % side - side / 2, i / side - side / 2, 0);
       for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3d offset(corner & 1, corner >> 1 & 1, corner >> 2);
         frame.points_S.push_back((middle_W - center_W + 2 * offset).cast<float>());
@@ -66,14 +70,25 @@ std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d
   return made;
 }
 
+Aabb CrowdBox(int count, const Eigen::Vector3d& center_W) {
+  const double half_m = kApart_m / 2;
+  const double low_m = -kApart_m * (SideOf(count) / 2) - half_m;
+  const double high_m = low_m + kApart_m * SideOf(count);
+  return {center_W + Eigen::Vector3d(low_m, low_m, -half_m),
+          center_W + Eigen::Vector3d(high_m, high_m, half_m)};
+}
+
 ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W) {
   ThreadPool pool(1);
-  SceneBuilder builder(scene.params, {}, pool);
+  SceneParams params = scene.params;
+  params.rays.max_range_m = -1;
+  SceneBuilder builder(params, {}, pool);
   for (const Frame& frame : FramesWithObjects(scene.stamp, count, center_W, 2)) {
     if (!builder.Apply(frame).ok()) std::abort();
   }
   auto with = std::make_shared<SceneSnapshot>(scene);
   with->objects = builder.Publish()->objects;
+  if (with->objects.size() != static_cast<std::size_t>(count)) std::abort();
   return with;
 }
 

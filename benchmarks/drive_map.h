@@ -22,11 +22,14 @@ DriveMap MakeDriveMap(std::size_t scans);
 
 // Frames, the last of them at `last`, 0.1 s apart, in which a sensor at `center_W` sees the corners
 // of `count` moving objects of 2 x 2 x 2 m, in a square around it and 5 m apart; each goes its own
-// way at 1 m/s.
+// way at 1 m/s. To be applied without a limit of range.
 std::vector<Frame> FramesWithObjects(Time last, int count, const Eigen::Vector3d& center_W,
                                      int frames);
 
-// The scene with those objects besides.
+// Around those objects, 5 m high; the same density for any count that is a square.
+Aabb CrowdBox(int count, const Eigen::Vector3d& center_W);
+
+// The scene with all those objects besides.
 ScenePtr WithObjects(const SceneSnapshot& scene, int count, const Eigen::Vector3d& center_W);
 
 class Dice {

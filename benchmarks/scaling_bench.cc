@@ -17,6 +17,8 @@
 namespace clearway::bench {
 namespace {
 
+constexpr double kNoLimit_m = -1;
+
 SceneParams Params(double resolution_m, double range_m) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = resolution_m;
@@ -74,7 +76,8 @@ void Resolutions(Counters& counters, const std::vector<Frame>& scans) {
   }
 }
 
-// Objects in the midst of the map: of 8 points each, of which one frame in turn is applied.
+// Objects in the midst of the map, of 8 points each: queries near the sensor, where at most 64 of
+// them are, and anywhere among them; and frames of them alone.
 void Objects(Counters& counters, const std::vector<Frame>& scans) {
   const ScenePtr alone = SceneOf(scans, Params(0.1, 50));
   const Eigen::Vector3d center_W = scans.front().T_W_S.translation;
@@ -84,8 +87,11 @@ void Objects(Counters& counters, const std::vector<Frame>& scans) {
     counters["curve_lookup_ns_" + x] = LookupNs(*scene, Around(center_W));
     counters["curve_check_ns_" + x] = CheckNs(scene, Around(center_W));
     if (count == 0) continue;
+    const Aabb crowd_W = CrowdBox(count, center_W);
+    counters["curve_lookup_among_ns_" + x] = LookupNs(*scene, crowd_W);
+    counters["curve_check_among_ns_" + x] = CheckNs(scene, crowd_W);
     counters["curve_integrate_ms_" + x] =
-        IntegrateMs(FramesWithObjects(scene->stamp, count, center_W, 4), Params(0.1, 50));
+        IntegrateMs(FramesWithObjects(scene->stamp, count, center_W, 4), Params(0.1, kNoLimit_m));
   }
 }
 

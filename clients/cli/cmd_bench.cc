@@ -46,6 +46,12 @@ absl::StatusOr<QuestionSpace> SpaceOf(const Flags& flags, const ServerStatus& sc
   return space;
 }
 
+absl::Status AtMost(const std::string& items, std::size_t batch, std::size_t limit) {
+  if (batch <= limit) return absl::OkStatus();
+  return absl::ResourceExhaustedError(
+      absl::StrCat("--", items, " ", batch, ": the server takes at most ", limit, " at once"));
+}
+
 Caller PointCaller(std::shared_ptr<Connection> connection, std::size_t points,
                    RandomQuestions questions) {
   struct Batch {
@@ -73,7 +79,11 @@ Caller StateCaller(std::shared_ptr<RemoteChecker> checker, const std::vector<Pos
 
 absl::StatusOr<Caller> MakeCaller(const Flags& flags, std::shared_ptr<Connection> connection,
                                   const RandomQuestions& questions, std::size_t batch) {
-  if (!flags.states) return PointCaller(std::move(connection), batch, questions);
+  if (!flags.states) {
+    const std::uint64_t limit = connection->server().limits.max_points_per_query;
+    if (absl::Status status = AtMost("points", batch, limit); !status.ok()) return status;
+    return PointCaller(std::move(connection), batch, questions);
+  }
   auto file = LoadRobot(flags.robot);
   if (!file.ok()) return file.status();
   CheckOptions options;
@@ -81,6 +91,8 @@ absl::StatusOr<Caller> MakeCaller(const Flags& flags, std::shared_ptr<Connection
   options.max_unknown_fraction = flags.unknown.max_fraction;
   auto checker = RemoteChecker::Pin(std::move(connection), std::move(file->robot));
   if (!checker.ok()) return checker.status();
+  const std::size_t limit = (*checker)->states_per_request();
+  if (absl::Status status = AtMost("states", batch, limit); !status.ok()) return status;
   return StateCaller(*std::move(checker), file->T_R_L, batch, options, questions);
 }
 
@@ -121,15 +133,18 @@ void AddQuestionFlags(CLI::App* command, Flags* flags) {
                    "Ask for occupancy, this many points a batch\n"
                    "(default: 1000)")
       ->check(batch);
-  command->add_option("--states", flags->states, "Instead check this many robot states a batch")
-      ->check(batch);
+  CLI::Option* const states =
+      command->add_option("--states", flags->states, "Instead check this many robot states a batch")
+          ->check(batch);
   command->add_option("--robot", flags->robot, "A robot file or one shape, as of 'clearway check'")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(states);
   AddParsed(command, "--unknown", &flags->unknown, ParseUnknown,
             "How unknown space counts for states, as of 'clearway\ncheck' (default: blocked)")
-      ->type_name("POLICY");
+      ->type_name("POLICY")
+      ->needs(states);
   AddParsed(command, "--bounds", &flags->bounds, ParseBox,
-            "Ask within this box (default: the scene's)")
+            "Ask within the box of these two opposite corners\n(default: the scene's)")
       ->type_name("X,Y,Z,X,Y,Z");
   command
       ->add_option("--ahead", flags->ahead_s,

@@ -106,6 +106,10 @@ RemoteChecker::~RemoteChecker() {
   (void)SceneClient(impl_->connection).ReleaseLease(impl_->lease.id);
 }
 
+std::size_t RemoteChecker::states_per_request() const {
+  return StatesPerRequest(impl_->connection->server().limits, impl_->robot.links.size());
+}
+
 absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
                                                 const CheckOptions& options) const {
   const std::size_t links = impl_->robot.links.size();
@@ -114,7 +118,7 @@ absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
                                                    " poses for ", states.times.size(),
                                                    " states of ", links, " links"));
   }
-  const std::size_t step = StatesPerRequest(impl_->connection->server().limits, links);
+  const std::size_t step = states_per_request();
   CheckReply reply{version(), stamp(), {}};
   std::size_t begin = 0;
   do {  // an empty batch is asked too: its options may be wrong

@@ -8,8 +8,10 @@ namespace clearway {
 namespace {
 
 std::size_t Cut(const VoxelGrid& grid, const Eigen::Vector3d* points, std::size_t count,
-                std::uint16_t* indices, std::uint32_t* firsts, BlockKey* blocks) {
+                const Eigen::Vector3d* soon, std::uint16_t* indices, std::uint32_t* firsts,
+                BlockKey* blocks) {
   if (count == 0) return 0;
+  AskFor(soon, count);
   std::array<VoxelKey, kRunsAtOnce> keys;
   grid.KeysOf({points, count}, keys.data());
   std::uint32_t run = 0;

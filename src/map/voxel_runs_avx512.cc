@@ -67,8 +67,8 @@ CLEARWAY_AVX512 inline __m128i PlacesOf(__m256i x, __m256i y, __m256i z) {
 }
 
 CLEARWAY_AVX512 std::size_t Cut(const VoxelGrid& grid, const Eigen::Vector3d* points,
-                                std::size_t count, std::uint16_t* indices, std::uint32_t* firsts,
-                                BlockKey* blocks) {
+                                std::size_t count, const Eigen::Vector3d* soon,
+                                std::uint16_t* indices, std::uint32_t* firsts, BlockKey* blocks) {
   if (count == 0) return 0;
   const __m512d voxels_per_m = _mm512_set1_pd(grid.voxels_per_m());
   const __m256i order = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
@@ -80,6 +80,7 @@ CLEARWAY_AVX512 std::size_t Cut(const VoxelGrid& grid, const Eigen::Vector3d* po
   BlockAxis block_x(~BlockOf(grid.KeyOf(points[0])).x), block_y(0), block_z(0);
   std::size_t run_count = 0;
   for (std::size_t i = 0; i < count; i += kCutLanes) {
+    AskFor(soon + i, kCutLanes);
     const double* const from = i < whole ? points[i].data() : rest[0].data();
     const __m512i first_16 =
         _mm512_inserti64x4(_mm512_castsi256_si512(IndicesOf(from, voxels_per_m)),

@@ -293,11 +293,18 @@ TEST_F(CliServer, BenchSaysWhatIsWrong) {
   const Finished empty = Clearway({"bench"});
   EXPECT_EQ(empty.exit_code, 1);
   EXPECT_THAT(empty.err, HasSubstr("the scene is empty: replay something, or give --bounds"));
-  const Finished large =
-      Clearway({"bench", "--points", "5000000", "--bounds", "0,0,0,1,1,1", "--seconds", "0.1"});
-  EXPECT_EQ(large.exit_code, 1);
-  EXPECT_THAT(large.err, HasSubstr("--points 5000000: request: holds 8"));
-  EXPECT_THAT(large.err, HasSubstr("the limit is"));
+  const auto with = [this](const std::string& flag, const std::string& batch) {
+    return Clearway(
+        {"bench", flag, batch, "--bounds", "0,0,0,1,1,1", "--seconds", "0.1", "--time-step", "0"});
+  };
+  const Finished points = with("--points", "4000001"), states = with("--states", "20001");
+  EXPECT_EQ(points.exit_code, 1);
+  EXPECT_THAT(points.err, HasSubstr("--points 4000001: the server takes at most 4000000 at once"));
+  EXPECT_EQ(states.exit_code, 1);
+  EXPECT_THAT(states.err, HasSubstr("--states 20001: the server takes at most 20000 at once"));
+  const Finished bytes = with("--points", "4000000");
+  EXPECT_EQ(bytes.exit_code, 1);
+  EXPECT_THAT(bytes.err, HasSubstr("--points 4000000: request: holds "));
 }
 
 TEST_F(CliServer, ShowsLimitsAndParameters) {

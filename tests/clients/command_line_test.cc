@@ -73,6 +73,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"load-prior", "map.ply"}, ".bt"},
       {{"bench", "--points", "0"}, "--points"},
       {{"bench", "--points", "5", "--states", "5"}, "--states"},
+      {{"bench", "--robot", "sphere:1"}, "--states"},
+      {{"bench", "--points", "5", "--unknown", "free"}, "--states"},
       {{"bench", "--connections", "0"}, "--connections"},
       {{"bench", "--seconds", "nan"}, "--seconds"},
       {{"bench", "--states", "9", "--unknown", "2"}, "--unknown"},

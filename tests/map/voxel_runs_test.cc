@@ -37,8 +37,9 @@ class VoxelRunsTest : public testing::TestWithParam<Case> {
     std::vector<std::uint16_t> indices(room);
     std::vector<std::uint32_t> firsts(room);
     std::vector<BlockKey> block_keys(room);
-    const std::size_t count = GetParam().kernels.cut(
-        grid_, points.data(), points.size(), indices.data(), firsts.data(), block_keys.data());
+    const std::size_t count =
+        GetParam().kernels.cut(grid_, points.data(), points.size(), points.data(), indices.data(),
+                               firsts.data(), block_keys.data());
     std::vector<std::uint32_t> begins, runs;
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
       if (i == 0 || BlockOf(keys[i]) != BlockOf(keys[i - 1])) begins.push_back(i);

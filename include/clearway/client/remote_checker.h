@@ -17,9 +17,9 @@ struct RemoteCheckerOptions {
 };
 
 // Checks states over the network, pinned to one scene version by a lease until it is destroyed. Any
-// number of threads may call Check. Batches above the server's limit are sent in pieces; every
-// piece is answered on the same version. Check fails with FAILED_PRECONDITION once the lease is
-// lost (the server was unreachable for longer than the time to live, or restarted).
+// number of threads may call Check. Batches above the server's limit (states_per_request) are sent
+// in pieces; every piece is answered on the same version. Check fails with FAILED_PRECONDITION once
+// the lease is lost (the server was unreachable for longer than the time to live, or restarted).
 class RemoteChecker : public StateChecker {
  public:
   // Registers the robot (by the hash of its content) and pins the newest version.
@@ -33,6 +33,9 @@ class RemoteChecker : public StateChecker {
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;
+
+  // How many states of this robot the server takes at once.
+  std::size_t states_per_request() const;
 
   // Of the pinned version, for queries beside the checks (SceneQuery::lease_id).
   const std::string& lease_id() const;

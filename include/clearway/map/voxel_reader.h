@@ -28,7 +28,7 @@ class VoxelReader {
   void ForEach(std::span<const Eigen::Vector3d> points, Visit&& visit) {
     for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, points.size() - begin);
-      const std::size_t runs = Locate(points.subspan(begin, count));
+      const std::size_t runs = Locate(points, begin, count);
       for (std::size_t r = 0; r < runs; ++r) {
         for (std::size_t i = firsts_[r]; i < firsts_[r + 1]; ++i) {
           visit(begin + i, *blocks_[r], static_cast<int>(indices_[i]));
@@ -41,8 +41,9 @@ class VoxelReader {
   // Points: all that is known of so many stays in the first cache.
   static constexpr std::size_t kAtOnce = 256;
 
-  // Fills what follows for at most kAtOnce points; returns how many runs there are.
-  std::size_t Locate(std::span<const Eigen::Vector3d> points);
+  // Fills what follows for `count` points from `begin` on, at most kAtOnce; returns how many runs
+  // there are.
+  std::size_t Locate(std::span<const Eigen::Vector3d> points, std::size_t begin, std::size_t count);
 
   const VoxelMap& map_;
   // Of each point: its voxel's place in its block, and for States its state.
