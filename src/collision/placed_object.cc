@@ -38,7 +38,7 @@ ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
 
 const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
   wanted_.clear();
-  index_.ForEachNear(box_W, [&](std::size_t index) { wanted_.push_back(index); });
+  index_.ForEachNear(box_W, t, [&](std::size_t index) { wanted_.push_back(index); });
   if (t == time_ && wanted_ == looked_at_) return placed_;
   time_ = t;
   looked_at_ = wanted_;

@@ -23,25 +23,49 @@ Aabb OriginsOf(const std::vector<StampedPose>& history) {
   return way_W;
 }
 
+constexpr double kRounding_m = 1e-6;
+
+// A ball of this radius about the object's origin holds all of it.
+double RadiusOf(const MovingObject& object) {
+  return kRounding_m + std::max({FarthestCorner_m(object.observed_box_O),
+                                 FarthestCorner_m(object.solid->box_O), object.solid->radius_m});
+}
+
 // A box round everything of the object from `first` to `last`. From t_k on the origin moves at a
 // constant speed along a screw, before t_k between the poses of the history.
 Aabb ReachOf(const MovingObject& object, Time first, Time last, double inflation_mps) {
-  constexpr double kRounding_m = 1e-6;
-  const double radius_m = std::max({FarthestCorner_m(object.observed_box_O),
-                                    FarthestCorner_m(object.solid->box_O), object.solid->radius_m});
   const StampedPose& newest = object.history.back();
   Aabb origins_W{newest.T_W_O.translation, newest.T_W_O.translation};
   if (first < newest.stamp) origins_W.Extend(OriginsOf(object.history));
   const double ahead_s = std::max(0.0, ToSeconds(last - newest.stamp));
-  return origins_W.Padded(radius_m + kRounding_m + ahead_s * (object.SpeedMps() + inflation_mps));
+  return origins_W.Padded(RadiusOf(object) + ahead_s * (object.SpeedMps() + inflation_mps));
 }
 
 }  // namespace
+
+// Along a screw the origin's velocity turns: its acceleration is the angular velocity's cross
+// product with it, of the same length at all times.
+ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horizon,
+                                      double inflation_mps) {
+  const StampedPose& newest = object.history.back();
+  const Twist velocity_O = object.velocity_O.value_or(Twist{});
+  Ball ball;
+  ball.t_k = newest.stamp;
+  ball.origin_W = newest.T_W_O.translation;
+  ball.velocity_W = newest.T_W_O.rotation * velocity_O.linear;
+  ball.radius_m = RadiusOf(object);
+  ball.horizon_s = ToSeconds(horizon);
+  ball.bend_mps2 = 0.5 * velocity_O.angular.cross(velocity_O.linear).norm();
+  ball.beyond_mps = object.SpeedMps();
+  ball.inflation_mps = inflation_mps;
+  return ball;
+}
 
 ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, double inflation_mps)
     : words_((scene.objects.size() + 63) / 64) {
   std::vector<Aabb> reaches_W;
   for (const auto& object : scene.objects) {
+    balls_.push_back(BallOf(*object, scene.params.horizon, inflation_mps));
     reaches_W.push_back(ReachOf(*object, first, last, inflation_mps));
     box_W_.Extend(reaches_W.back());
   }

@@ -15,7 +15,7 @@ const SceneAtTime::Placed& TimedScene::Placed(std::size_t object, Time time) {
 
 void TimedScene::AddObjects(const Eigen::Vector3d& p_W, Time time, PointOccupancy& answer) {
   if (answer.status == SpaceStatus::kOutOfBounds) return;
-  index_.ForEachNear({p_W, p_W}, [&](std::size_t object) {
+  index_.ForEachNear({p_W, p_W}, time, [&](std::size_t object) {
     AddObject(scene_, Placed(object, time), p_W, answer);
   });
 }

@@ -62,7 +62,28 @@ TEST(TimedScene, SaysWhatPlacedObjectsSay) {
 TEST(ObjectIndex, Empty) {
   const SceneSnapshot scene = SceneSnapshot::Empty({});
   const ObjectIndex dut(scene, Time(), Time());
-  dut.ForEachNear({{-9, -9, -9}, {9, 9, 9}}, [](std::size_t) { FAIL() << "nothing is near"; });
+  dut.ForEachNear({{-9, -9, -9}, {9, 9, 9}}, Time(),
+                  [](std::size_t) { FAIL() << "nothing is near"; });
+}
+
+// Whether one of some points of the object, or of the ball that it may be in, is that near to the
+// box.
+bool MeetsBox(const SceneAtTime::Placed& placed, const Aabb& box_W, double within_m,
+              Random& random) {
+  Aabb box_O = placed.object->observed_box_O;
+  box_O.Extend(placed.object->solid->box_O);
+  for (int k = 0; k < 30; ++k) {
+    Eigen::Vector3d part(k & 1, k >> 1 & 1, k >> 2 & 1);  // a corner
+    if (k >= 8) part = 0.5 * (random.Vector(1).array() + 1);
+    Eigen::Vector3d p_W =
+        placed.T_W_O * (box_O.min + part.cwiseProduct(box_O.max - box_O.min)).eval();
+    if (placed.beyond_horizon_radius_m) {
+      p_W = placed.T_W_O.translation + *placed.beyond_horizon_radius_m * random.UnitVector();
+    }
+    const Eigen::Vector3d nearest_W = p_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
+    if ((nearest_W - p_W).norm() <= within_m) return true;
+  }
+  return false;
 }
 
 TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
@@ -78,19 +99,19 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
     const double inflation_mps = random.Uniform(0, 1);
     const ObjectIndex dut(*scene, scene->stamp + FromSeconds(first_s),
                           scene->stamp + FromSeconds(last_s), inflation_mps);
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < 200; ++k) {
       const Eigen::Vector3d corner_W = random.Vector(12);
       const Aabb box_W{corner_W, corner_W + Eigen::Vector3d::Constant(random.Uniform(0, 2))};
-      std::vector<std::size_t> visited;
-      dut.ForEachNear(box_W, [&](std::size_t object) { visited.push_back(object); });
-      EXPECT_TRUE(std::is_sorted(visited.begin(), visited.end()));
       const Time time = scene->stamp + FromSeconds(random.Uniform(first_s, last_s));
+      std::vector<std::size_t> visited;
+      dut.ForEachNear(box_W, time, [&](std::size_t object) { visited.push_back(object); });
+      EXPECT_TRUE(std::is_sorted(visited.begin(), visited.end()));
       const SceneAtTime placed(*scene, time);
       for (std::size_t object = 0; object < scene->objects.size(); ++object) {
         const double grown_m =
             inflation_mps * std::max(0.0, ToSeconds(time - scene->objects[object]->t_k()));
         const bool found = std::binary_search(visited.begin(), visited.end(), object);
-        const bool meets = placed.objects()[object].box_W.Padded(grown_m).Intersects(box_W);
+        const bool meets = MeetsBox(placed.objects()[object], box_W, grown_m, random);
         EXPECT_TRUE(found || !meets) << "object " << object;
         near += meets;
         spared += !found;
@@ -112,10 +133,41 @@ TEST(ObjectIndex, TakesMoreObjectsThanAWordHasBits) {
   for (std::size_t object = 0; object < 200; ++object) {
     const Eigen::Vector3d p_W(3.0 * (static_cast<double>(object) + 1), 1, 0);
     std::vector<std::size_t> visited;
-    dut.ForEachNear({p_W, p_W}, [&](std::size_t near) { visited.push_back(near); });
-    EXPECT_TRUE(std::find(visited.begin(), visited.end(), object) != visited.end());
-    EXPECT_LE(visited.size(), 8u);  // a cell is 9.4 m wide
+    dut.ForEachNear({p_W, p_W}, scene->stamp, [&](std::size_t near) { visited.push_back(near); });
+    EXPECT_EQ(visited, std::vector{object});
   }
+}
+
+// One that goes round in a circle, of a metre and a half in radius, is spared on the straight line.
+TEST(ObjectIndex, FollowsAnObjectThatTurns) {
+  ThreadPool pool(1);
+  SceneParams params;
+  params.horizon = std::chrono::seconds(10);
+  SceneBuilder builder(params, {}, pool);
+  constexpr double kTurn_rad = 0.1;  // in 0.1 s
+  const Pose turn{Eigen::Quaterniond(Eigen::AngleAxisd(kTurn_rad, Eigen::Vector3d::UnitZ())),
+                  Eigen::Vector3d::Zero()};
+  Frame frame = FrameAt(0);
+  AddPoint(frame, 1, {1.5, 0, 0});
+  ASSERT_TRUE(builder.Apply(frame).ok());
+  Frame next = FrameAt(0.1);
+  AddPoint(next, 1, turn * Eigen::Vector3d(1.5, 0, 0));
+  next.motions = {{1, turn, frame.stamp}};
+  ASSERT_TRUE(builder.Apply(next).ok());
+  const ScenePtr scene = builder.Publish();
+  const ObjectIndex dut(*scene, scene->stamp, scene->stamp + FromSeconds(7));
+  for (int k = 0; k <= 70; ++k) {
+    const Time time = scene->stamp + FromSeconds(0.1 * k);
+    const Pose T_W_O = PredictPose(*scene->objects[0], time, params.horizon).T_W_O;
+    const Eigen::Vector3d p_W = T_W_O * scene->objects[0]->solid->box_O.Center();
+    EXPECT_NEAR(p_W.norm(), 1.5, 0.2);
+    int visits = 0;
+    dut.ForEachNear({p_W, p_W}, time, [&](std::size_t) { ++visits; });
+    EXPECT_EQ(visits, 1) << k;
+  }
+  const Eigen::Vector3d behind_W(1.5, -1.5, 0);
+  dut.ForEachNear({behind_W, behind_W}, scene->stamp + FromSeconds(0.5),
+                  [](std::size_t) { FAIL() << "it has gone the other way"; });
 }
 
 }  // namespace

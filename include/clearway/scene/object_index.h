@@ -1,6 +1,7 @@
 // Which moving objects may be near a place.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -14,17 +15,18 @@ namespace clearway {
 // near a box and gets nearly all others spared. Immutable; any thread may read it.
 //
 // Each axis is cut into cells, and a cell holds one bit for each object that may reach into it: the
-// objects near a box are those with a bit in its cells on all three axes.
+// objects near a box are those with a bit in its cells on all three axes. For those, a ball round
+// where the object is at the time is asked.
 class ObjectIndex {
  public:
   // Counts what an object observed, its solid, its swept bound beyond the horizon, and
   // inflation_mps times the seconds since its t_k.
   ObjectIndex(const SceneSnapshot& scene, Time first, Time last, double inflation_mps = 0);
 
-  // Calls visit(i) for the objects scene.objects[i] that may meet the box, in ascending order;
-  // there may be a few that do not.
+  // Calls visit(i) for the objects scene.objects[i] that may meet the box at `time`, which lies in
+  // the interval, in ascending order; there may be a few that do not.
   template <class Visit>
-  void ForEachNear(const Aabb& box_W, Visit&& visit) const;
+  void ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const;
 
  private:
   static constexpr int kCells = 64;
@@ -36,10 +38,34 @@ class ObjectIndex {
   }
   std::uint64_t BitsIn(int axis, int from, int to, std::size_t word) const;
 
+  // A ball that holds an object at any time from t_k on: its centre goes straight on until the
+  // horizon, from which the object's origin strays as it goes along a screw.
+  struct Ball {
+    Time t_k;
+    Eigen::Vector3d origin_W, velocity_W;  // m/s, of the origin at t_k
+    double radius_m;                       // at t_k
+    double horizon_s;
+    double bend_mps2;  // the origin strays by this times the square of the time
+    double beyond_mps, inflation_mps;
+
+    bool Meets(const Aabb& box_W, Time time) const {
+      const double since_s = ToSeconds(time - t_k);
+      if (since_s < 0) return true;
+      const double ahead_s = std::min(since_s, horizon_s);
+      const Eigen::Vector3d center_W = origin_W + ahead_s * velocity_W;
+      const double reach_m = radius_m + ahead_s * ahead_s * bend_mps2 +
+                             (since_s - ahead_s) * beyond_mps + since_s * inflation_mps;
+      const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
+      return (nearest_W - center_W).squaredNorm() <= reach_m * reach_m;
+    }
+  };
+  static Ball BallOf(const MovingObject& object, Duration horizon, double inflation_mps);
+
   std::size_t words_ = 0;  // per cell
   Aabb box_W_;             // around all objects
   Eigen::Vector3d low_, cells_per_m_;
   std::array<std::vector<std::uint64_t>, 3> cells_;  // word w of cell c is at c * words_ + w
+  std::vector<Ball> balls_;                          // of the objects
 };
 
 inline std::uint64_t ObjectIndex::BitsIn(int axis, int from, int to, std::size_t word) const {
@@ -49,7 +75,7 @@ inline std::uint64_t ObjectIndex::BitsIn(int axis, int from, int to, std::size_t
 }
 
 template <class Visit>
-void ObjectIndex::ForEachNear(const Aabb& box_W, Visit&& visit) const {
+void ObjectIndex::ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const {
   if (words_ == 0 || !box_W_.Intersects(box_W)) return;
   std::array<int, 3> from, to;
   for (int axis = 0; axis < 3; ++axis) {
@@ -60,7 +86,10 @@ void ObjectIndex::ForEachNear(const Aabb& box_W, Visit&& visit) const {
     std::uint64_t near = BitsIn(0, from[0], to[0], word);
     if (near != 0) near &= BitsIn(1, from[1], to[1], word);
     if (near != 0) near &= BitsIn(2, from[2], to[2], word);
-    for (; near != 0; near &= near - 1) visit(word * 64 + std::countr_zero(near));
+    for (; near != 0; near &= near - 1) {
+      const std::size_t object = word * 64 + std::countr_zero(near);
+      if (balls_[object].Meets(box_W, time)) visit(object);
+    }
   }
 }
 
