@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "clearway/scene/occupancy.h"
+#include "report/label_places.h"
 #include "report/legend.h"
 #include "report/map_view.h"
 #include "report/path_painter.h"
@@ -154,19 +155,37 @@ class TopViewPainter {
     }
   }
 
-  void PaintLabels() {
-    for (const SceneAtTime::Placed& placed : now_.objects()) {
-      const auto name = options_.names.find(placed.object->id);
-      std::string text =
-          name != options_.names.end() ? name->second : absl::StrCat(placed.object->id);
-      if (placed.object->SpeedMps() >= kMovingMps) {
-        absl::StrAppendFormat(&text, ", %.1f m/s", placed.object->SpeedMps());
-      }
-      const Eigen::Vector2d top =
-          view_.ToPixels(Eigen::Vector2d(placed.box_W.Center().x(), placed.box_W.max.y()));
-      canvas_.Text(top - Eigen::Vector2d(0, 8), text,
-                   {.size_px = 17, .align = Align::kCenter, .bold = true, .halo_px = 5});
+  std::string LabelOf(const MovingObject& object) const {
+    const auto name = options_.names.find(object.id);
+    std::string text = name != options_.names.end() ? name->second : absl::StrCat(object.id);
+    if (object.SpeedMps() >= kMovingMps) {
+      absl::StrAppendFormat(&text, ", %.1f m/s", object.SpeedMps());
     }
+    return text;
+  }
+
+  // Of the objects that are in the picture.
+  void PaintLabels() {
+    constexpr report::TextStyle kStyle{
+        .size_px = 17, .align = Align::kCenter, .bold = true, .halo_px = 5};
+    constexpr double kLinePx = 22, kBaselinePx = 6;  // the latter from below
+    const report::Rect frame(view_.top_left(), view_.top_left() + view_.size_px());
+    report::LabelPlaces places(frame);
+    for (const SceneAtTime::Placed& placed : now_.objects()) places.KeepClear(PixelsOf(placed));
+    for (const SceneAtTime::Placed& placed : now_.objects()) {
+      const report::Rect named = PixelsOf(placed);
+      if (!frame.intersects(named)) continue;
+      const std::string text = LabelOf(*placed.object);
+      const double width_px = canvas_.TextWidth(text, kStyle) + kStyle.halo_px;
+      const report::Rect label = places.Take(named, {width_px, kLinePx});
+      canvas_.Text({label.center().x(), label.max().y() - kBaselinePx}, text, kStyle);
+    }
+  }
+
+  report::Rect PixelsOf(const SceneAtTime::Placed& placed) const {
+    const Aabb& box_W = placed.box_W;
+    report::Rect rect(view_.ToPixels(Eigen::Vector2d(box_W.min.x(), box_W.max.y())));
+    return rect.extend(view_.ToPixels(Eigen::Vector2d(box_W.max.x(), box_W.min.y())));
   }
 
   void PaintLegend() {
