@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "clearway/collision/scene_checker.h"
@@ -96,11 +97,12 @@ void Clearance(benchmark::State& state, const Case& c, std::size_t count) {
   state.counters["clearance_error_m"] = error_m;
 }
 
-void FclClearance(benchmark::State& state, const Case& c, std::size_t count) {
+// `up_to_m` as FclChecker's.
+void FclClearance(benchmark::State& state, const Case& c, std::size_t count, double up_to_m) {
   const StateBatch free = c.Free(count);
   for (auto _ : state) {
     double sum_m = 0;
-    for (const Pose& pose : free.T_W_L) sum_m += c.fcl->Distance(pose);
+    for (const Pose& pose : free.T_W_L) sum_m += c.fcl->Distance(pose, up_to_m);
     benchmark::DoNotOptimize(sum_m);
   }
 }
@@ -183,7 +185,10 @@ void Register(const Effort& effort) {
     }
     if (name != "box") continue;
     const std::size_t count = effort.quick ? 100 : 500;
-    add("fcl_clearance", [=](auto& state) { FclClearance(state, *c, count); });
+    constexpr double kAnywhere_m = std::numeric_limits<double>::max();
+    add("fcl_clearance", [=](auto& state) { FclClearance(state, *c, count, kAnywhere_m); });
+    add("fcl_clearance_bounded",
+        [=](auto& state) { FclClearance(state, *c, count, kClearance_m); });
     add("clearway_clearance", [=](auto& state) { Clearance(state, *c, count); });
   }
 }
@@ -192,11 +197,13 @@ void Register(const Effort& effort) {
 }  // namespace clearway::bench
 
 int main(int argc, char** argv) {
-  return clearway::bench::Main(argc, argv, clearway::bench::Register,
-                               {{"collide_box_vs_fcl_x", "fcl_box", "clearway_box"},
-                                {"collide_sphere_vs_fcl_x", "fcl_sphere", "clearway_sphere"},
-                                {"collide_capsule_vs_fcl_x", "fcl_capsule", "clearway_capsule"},
-                                {"collide_mesh_vs_fcl_x", "fcl_mesh", "clearway_mesh"},
-                                {"clearance_vs_fcl_x", "fcl_clearance", "clearway_clearance"}},
-                               clearway::bench::Order::kInTurns);
+  return clearway::bench::Main(
+      argc, argv, clearway::bench::Register,
+      {{"collide_box_vs_fcl_x", "fcl_box", "clearway_box"},
+       {"collide_sphere_vs_fcl_x", "fcl_sphere", "clearway_sphere"},
+       {"collide_capsule_vs_fcl_x", "fcl_capsule", "clearway_capsule"},
+       {"collide_mesh_vs_fcl_x", "fcl_mesh", "clearway_mesh"},
+       {"clearance_vs_fcl_x", "fcl_clearance", "clearway_clearance"},
+       {"clearance_vs_bounded_fcl_x", "fcl_clearance_bounded", "clearway_clearance"}},
+      clearway::bench::Order::kInTurns);
 }

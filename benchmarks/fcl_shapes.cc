@@ -100,8 +100,8 @@ bool FclChecker::Collides(const Pose& T_W_G) const {
                       Eigen::Isometry3d::Identity(), fcl::CollisionRequestd(), result) > 0;
 }
 
-double FclChecker::Distance(const Pose& T_W_G) const {
-  fcl::DistanceResultd result;
+double FclChecker::Distance(const Pose& T_W_G, double up_to_m) const {
+  fcl::DistanceResultd result(up_to_m);
   return fcl::distance(impl_->shape.get(), ToIsometry(T_W_G), impl_->tree.get(),
                        Eigen::Isometry3d::Identity(), fcl::DistanceRequestd(), result);
 }

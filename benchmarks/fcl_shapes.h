@@ -3,6 +3,7 @@
 
 #include <octomap/OcTree.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ class FclChecker {
   FclChecker(const Shape& shape, std::shared_ptr<const octomap::OcTree> tree);
   ~FclChecker();
   bool Collides(const Pose& T_W_G) const;
-  double Distance(const Pose& T_W_G) const;
+  // Beyond up_to_m FCL need not search.
+  double Distance(const Pose& T_W_G, double up_to_m = std::numeric_limits<double>::max()) const;
 
  private:
   struct Impl;

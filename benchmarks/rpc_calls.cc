@@ -4,6 +4,7 @@
 
 #include "clearway/v1/occupancy_service.grpc.pb.h"
 #include "clearway/v1/server_service.grpc.pb.h"
+#include "server/pollers.h"
 
 namespace clearway::bench {
 namespace {
@@ -61,6 +62,7 @@ EchoServer::EchoServer() : impl_(std::make_unique<Impl>()) {
   builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
   builder.RegisterService(&impl_->occupancy);
   builder.RegisterService(&impl_->info);
+  SetPollers(builder);
   impl_->server = builder.BuildAndStart();
   impl_->address = "127.0.0.1:" + std::to_string(port);
 }

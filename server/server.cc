@@ -16,6 +16,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/core.h"
+#include "server/pollers.h"
 #include "server/services.h"
 #include "server/status_interceptor.h"
 
@@ -79,9 +80,7 @@ void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
   builder.SetMaxSendMessageSize(-1);  // replies are bounded by the limits on questions
   // Two servers on one port would share its clients at random.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // With gRPC's one and two, each call that is taken up makes a new thread to wait for the next.
-  builder.SetSyncServerOption(grpc::ServerBuilder::MIN_POLLERS, 2);
-  builder.SetSyncServerOption(grpc::ServerBuilder::MAX_POLLERS, 4);
+  SetPollers(builder);
   grpc::ResourceQuota quota("clearway");
   quota.SetMaxThreads(static_cast<int>(limits.max_calls) + kSpareThreads);
   builder.SetResourceQuota(quota);

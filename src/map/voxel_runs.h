@@ -12,7 +12,7 @@ namespace clearway {
 
 // For how many points at most a kernel is asked, and how many values more than there are points
 // each array must have room for.
-inline constexpr std::size_t kRunsAtOnce = 256, kRunsRoom = 32;
+inline constexpr std::size_t kRunsAtOnce = 512, kRunsRoom = 32;
 
 // Says of `count` points, as KeyOf, where their voxels lie: indices[i] is the place of that of
 // points[i] in its block; firsts[r] is the first point of run r, of points in a row that lie in

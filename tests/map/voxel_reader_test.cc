@@ -33,7 +33,7 @@ TEST(VoxelReader, AgreesWithTheMap) {
   const VoxelMap map = RandomMap(random);
   VoxelReader dut(map);
   std::array<int, 3> seen{};
-  for (const std::size_t size : {1u, 2u, 255u, 256u, 257u, 5000u}) {
+  for (const std::size_t size : {1u, 2u, 255u, 511u, 512u, 513u, 5000u}) {
     for (const double step_m : {0.0, 0.03, 10.0}) {  // one voxel, a line, anywhere
       std::vector<Eigen::Vector3d> points{random.Vector(4)};
       while (points.size() < size) {

@@ -39,7 +39,7 @@ class VoxelReader {
 
  private:
   // Points: all that is known of so many stays in the first cache.
-  static constexpr std::size_t kAtOnce = 256;
+  static constexpr std::size_t kAtOnce = 512;
 
   // Fills what follows for `count` points from `begin` on, at most kAtOnce; returns how many runs
   // there are.
