@@ -39,10 +39,16 @@ CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
   return most_squared <= near_m_ * near_m_ ? Answer::kYes : Answer::kOpen;
 }
 
-// Two boxes are apart if and only if they are along one of 15 axes: their own and their cross
-// products (Gottschalk, Lin and Manocha, "OBBTree", 1996). R and `apart` are in F, k is G's axis.
 CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
                                          double half_edge_m) const {
+  const double gap_m = GapOfBoxes(center_F, half_edge_m);
+  if (gap_m > far_m_) return Answer::kNo;
+  return gap_m <= -kRounding_m ? Answer::kYes : Answer::kOpen;
+}
+
+// Two boxes are apart if and only if they are along one of 15 axes: their own and their cross
+// products (Gottschalk, Lin and Manocha, "OBBTree", 1996). R and `apart` are in F, k is G's axis.
+double CubeContact::GapOfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const {
   constexpr double kParallel = 1e-6;  // such a cross product says nothing that the axes do not
   const Eigen::Matrix3d& R = box_->R_F_G;
   const Eigen::Vector3d &half = box_->half_m, apart = center_F - box_->origin_F;
@@ -61,8 +67,13 @@ CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,
       gap_m = std::max(gap_m, (std::abs(axis.dot(apart)) - reach_m) / length);
     }
   }
-  if (gap_m > far_m_) return Answer::kNo;
-  return gap_m <= -kRounding_m ? Answer::kYes : Answer::kOpen;
+  return gap_m;
+}
+
+double CubeContact::Gap(const Eigen::Vector3d& center_F, double half_edge_m) const {
+  const double gap_m = DistanceTo(center_F, half_edge_m).least_m;
+  if (!box_) return gap_m;
+  return std::max(gap_m, GapOfBoxes(center_F, half_edge_m) - kRounding_m);
 }
 
 // By the balls about the cube and in it.

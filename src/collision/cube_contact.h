@@ -33,6 +33,8 @@ class CubeContact {
     double least_m, most_m;
   };
   Bounds DistanceTo(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  // As `least_m`, but takes longer and for boxes is closer: it is above 0 whenever they are apart.
+  double Gap(const Eigen::Vector3d& center_F, double half_edge_m) const;
 
  private:
   static constexpr double kToCorner = 1.7320508075688774;  // of a cube's centre, in half edges
@@ -66,6 +68,7 @@ class CubeContact {
   static Bounds FromCore(const Eigen::Vector3d& to_center_F, double half_edge_m);
   Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  double GapOfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfAnyShape(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Bounds MeshDistanceTo(const Eigen::Vector3d& center_F, double half_edge_m) const;

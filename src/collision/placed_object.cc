@@ -16,12 +16,12 @@ Aabb PlacedBox(const PlacedObject& placed) {
   return Transformed(placed.T_W_O, placed.object->solid->box_O).Padded(placed.margin_m);
 }
 
+}  // namespace
+
 double InflationOf(const MovingObject& object, Time t, const CheckOptions& options) {
   if (options.inflate_moving_only && object.velocity_O && object.AtRest()) return 0;
   return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k()));
 }
-
-}  // namespace
 
 ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
   ObjectHulls hulls;

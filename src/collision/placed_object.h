@@ -16,6 +16,9 @@ namespace clearway {
 using ObjectHulls = std::vector<std::unique_ptr<const ShapeGeometry>>;
 ObjectHulls PrepareHulls(const SceneSnapshot& scene);
 
+// By how much the object is grown at `t`, in metres.
+double InflationOf(const MovingObject& object, Time t, const CheckOptions& options);
+
 // What an object blocks at one time: beyond its horizon a ball, else its solid. Refers to the scene
 // and to its hull.
 struct PlacedObject {
@@ -43,6 +46,8 @@ class ObjectPlacer {
   // The objects that may meet the box at `t` and are not ignored, by ascending ids, and perhaps a
   // few others. Valid until the next call.
   const std::vector<PlacedObject>& Near(const Aabb& box_W, Time t);
+
+  const ObjectIndex& index() const { return index_; }
 
  private:
   std::optional<PlacedObject> Place(std::size_t index, Time t) const;

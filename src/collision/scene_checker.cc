@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision/motion_check.h"
 #include "collision/placed_object.h"
 #include "collision/state_check.h"
 #include "collision/validation.h"
@@ -44,6 +45,35 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   for (std::size_t s = 0; s < states.times.size(); ++s) {
     check.Answer(states.times[s], &states.T_W_L[s * links], reply.answers[s]);
     if (cancelled()) return absl::CancelledError("the check was cancelled");
+  }
+  return reply;
+}
+
+absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
+    const MotionBatch& motions, const MotionOptions& options,
+    const std::function<bool()>& cancelled) const {
+  if (auto status = Validate(options, robot()); !status.ok()) return status;
+  if (auto status = Validate(motions, robot()); !status.ok()) return status;
+  const SceneSnapshot& scene = *impl_->scene;
+  MotionReply reply{version(), stamp(), scene.params.horizon, {}};
+  reply.answers.resize(motions.knot_counts.size());
+  if (motions.times.empty()) return reply;
+  const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
+                                                            options.check.allowed_contacts.end());
+  const auto [first, last] = std::minmax_element(motions.times.begin(), motions.times.end());
+  ObjectPlacer objects(scene, impl_->hulls, options.check, *first, *last);
+  const CheckContext states{scene, options.check, allowed_contacts, objects, cancelled};
+  const MotionContext context{states, impl_->hulls, objects.index(), options.contact_resolution_m};
+  MotionCheck check(context, impl_->robot->geometry());
+  const std::size_t links = robot().links.size();
+  std::size_t knot = 0;
+  for (std::size_t m = 0; m < motions.knot_counts.size(); ++m) {
+    const double* const deviations_m =
+        motions.deviations_m.empty() ? nullptr : &motions.deviations_m[knot * links];
+    check.Answer(std::span(motions.times).subspan(knot, motions.knot_counts[m]),
+                 &motions.T_W_L[knot * links], deviations_m, reply.answers[m]);
+    if (cancelled()) return absl::CancelledError("the check was cancelled");
+    knot += motions.knot_counts[m];
   }
   return reply;
 }

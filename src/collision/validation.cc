@@ -70,22 +70,27 @@ absl::Status Validate(const CheckOptions& options, const Robot& robot) {
 }
 
 absl::Status Validate(const StateBatch& states, const Robot& robot) {
+  return ValidateStates(states.times, states.T_W_L, robot);
+}
+
+absl::Status ValidateStates(const std::vector<Time>& times, const std::vector<Pose>& T_W_L,
+                            const Robot& robot) {
   const std::size_t links = robot.links.size();
-  if (states.T_W_L.size() != states.times.size() * links) {
+  if (T_W_L.size() != times.size() * links) {
     return Invalid("world_from_link",
-                   absl::StrCat("has ", states.T_W_L.size(), " poses; ", states.times.size(),
-                                " states of ", links, " links need ", states.times.size() * links));
+                   absl::StrCat("has ", T_W_L.size(), " poses; ", times.size(), " states of ",
+                                links, " links need ", times.size() * links));
   }
-  for (std::size_t s = 0; s < states.times.size(); ++s) {
-    const std::int64_t time_ns = ToNanoseconds(states.times[s]);
+  for (std::size_t s = 0; s < times.size(); ++s) {
+    const std::int64_t time_ns = ToNanoseconds(times[s]);
     if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) continue;
     return Invalid(absl::StrCat("times_ns[", s, "]"),
                    absl::StrCat("is ", time_ns, "; it must lie within ", kMaxTime_ns, " of 0"));
   }
-  for (std::size_t i = 0; i < states.T_W_L.size(); ++i) {
+  for (std::size_t i = 0; i < T_W_L.size(); ++i) {
     constexpr double kAnywhere_m = std::numeric_limits<double>::max();
-    if (ValidatePose("", states.T_W_L[i], kAnywhere_m).ok()) continue;
-    return ValidatePose(absl::StrCat("world_from_link[", i, "]"), states.T_W_L[i], kAnywhere_m);
+    if (ValidatePose("", T_W_L[i], kAnywhere_m).ok()) continue;
+    return ValidatePose(absl::StrCat("world_from_link[", i, "]"), T_W_L[i], kAnywhere_m);
   }
   return absl::OkStatus();
 }

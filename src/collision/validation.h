@@ -10,5 +10,7 @@ namespace clearway {
 // not finite or not of unit rotation, times whose differences could overflow. A pose anywhere is
 // valid; far off it is out of bounds.
 absl::Status Validate(const StateBatch& states, const Robot& robot);
+absl::Status ValidateStates(const std::vector<Time>& times, const std::vector<Pose>& T_W_L,
+                            const Robot& robot);
 
 }  // namespace clearway

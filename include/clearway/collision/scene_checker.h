@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "clearway/collision/motion.h"
 #include "clearway/collision/prepared_robot.h"
 #include "clearway/collision/state_checker.h"
 
@@ -25,11 +26,16 @@ class SceneChecker : public StateChecker {
   // soon after it has become true. It must then stay true.
   absl::StatusOr<CheckReply> Check(const StateBatch& states, const CheckOptions& options,
                                    const std::function<bool()>& cancelled) const;
+  // Whether each motion is free, by proof, or where it is in contact first. Errors as of Check.
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions, const MotionOptions& options,
+                                           const std::function<bool()>& cancelled = Never) const;
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;
 
  private:
+  static bool Never() { return false; }
+
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -26,7 +26,12 @@ class ObjectIndex {
   // Calls visit(i) for the objects scene.objects[i] that may meet the box at `time`, which lies in
   // the interval, in ascending order; there may be a few that do not.
   template <class Visit>
-  void ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const;
+  void ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const {
+    ForEachNear(box_W, time, time, visit);
+  }
+  // The same for all times from `from` to `until`, which both lie in the interval.
+  template <class Visit>
+  void ForEachNear(const Aabb& box_W, Time from, Time until, Visit&& visit) const;
 
  private:
   static constexpr int kCells = 64;
@@ -48,13 +53,17 @@ class ObjectIndex {
     double bend_mps2;  // the origin strays by this times the square of the time
     double beyond_mps, inflation_mps;
 
-    bool Meets(const Aabb& box_W, Time time) const {
-      const double since_s = ToSeconds(time - t_k);
-      if (since_s < 0) return true;
+    // In the middle of a time, or for half of it before and after. The origin is never faster
+    // than beyond the horizon.
+    bool Meets(const Aabb& box_W, Time from, Time until) const {
+      if (from < t_k) return true;
+      const double half_s = 0.5 * ToSeconds(until - from);
+      const double since_s = ToSeconds(from - t_k) + half_s;
       const double ahead_s = std::min(since_s, horizon_s);
       const Eigen::Vector3d center_W = origin_W + ahead_s * velocity_W;
       const double reach_m = radius_m + ahead_s * ahead_s * bend_mps2 +
-                             (since_s - ahead_s) * beyond_mps + since_s * inflation_mps;
+                             (since_s - ahead_s + half_s) * beyond_mps +
+                             (since_s + half_s) * inflation_mps;
       const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
       return (nearest_W - center_W).squaredNorm() <= reach_m * reach_m;
     }
@@ -75,20 +84,20 @@ inline std::uint64_t ObjectIndex::BitsIn(int axis, int from, int to, std::size_t
 }
 
 template <class Visit>
-void ObjectIndex::ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const {
+void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, Visit&& visit) const {
   if (words_ == 0 || !box_W_.Intersects(box_W)) return;
-  std::array<int, 3> from, to;
+  std::array<int, 3> first, last;
   for (int axis = 0; axis < 3; ++axis) {
-    from[axis] = CellOf(axis, box_W.min[axis]);
-    to[axis] = CellOf(axis, box_W.max[axis]);
+    first[axis] = CellOf(axis, box_W.min[axis]);
+    last[axis] = CellOf(axis, box_W.max[axis]);
   }
   for (std::size_t word = 0; word < words_; ++word) {
-    std::uint64_t near = BitsIn(0, from[0], to[0], word);
-    if (near != 0) near &= BitsIn(1, from[1], to[1], word);
-    if (near != 0) near &= BitsIn(2, from[2], to[2], word);
+    std::uint64_t near = BitsIn(0, first[0], last[0], word);
+    if (near != 0) near &= BitsIn(1, first[1], last[1], word);
+    if (near != 0) near &= BitsIn(2, first[2], last[2], word);
     for (; near != 0; near &= near - 1) {
       const std::size_t object = word * 64 + std::countr_zero(near);
-      if (balls_[object].Meets(box_W, time)) visit(object);
+      if (balls_[object].Meets(box_W, from, until)) visit(object);
     }
   }
 }

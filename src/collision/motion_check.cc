@@ -1,0 +1,246 @@
+#include "collision/motion_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clearway {
+namespace {
+
+// A first guess of what a sweep may be: longer ones look at more of the map than they pass.
+constexpr double kLongest_m = 3;
+constexpr double kLooseBy_m = 0.15;
+// How much shorter than the resolution of contacts spans may get, and how many a leg may take.
+constexpr int kFiner = 64, kMostSpans = 1000;
+
+Duration Seconds(double seconds) {
+  constexpr double kLongest_s = 1e9;
+  return std::max(Duration(1), FromSeconds(std::min(seconds, kLongest_s)));
+}
+
+}  // namespace
+
+MotionCheck::MotionCheck(const MotionContext& context, const RobotGeometry& robot)
+    : context_(context),
+      scene_(context.check.scene),
+      options_(context.check.options),
+      robot_(robot),
+      states_(context.check, robot),
+      bounds_W_(scene_.params.bounds_W) {
+  const double limit_m = scene_.static_map_W.grid().limit_m();
+  bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
+  bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
+  for (const auto& object : scene_.objects) {
+    const double spin_radps = object->velocity_O ? object->velocity_O->angular.norm() : 0;
+    fastest_object_mps_ =
+        std::max(fastest_object_mps_, object->SpeedMps() + spin_radps * object->solid->radius_m);
+  }
+  fastest_object_mps_ += options_.inflation_mps;
+}
+
+void MotionCheck::Answer(std::span<const Time> times, const Pose* T_W_L, const double* deviations_m,
+                         MotionAnswer& answer) {
+  const std::size_t links = robot_.links().size();
+  answer = {};
+  answer.free_until = times.front();
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    Leg leg{times[k], times[k + 1], {}, nullptr};
+    if (deviations_m != nullptr) leg.deviations_m = deviations_m + k * links;
+    const Pose* const from = T_W_L + k * links;
+    for (std::size_t link = 0; link < links; ++link) {
+      leg.links.emplace_back(from[link], from[links + link], ToSeconds(leg.until - leg.from));
+    }
+    if (!Prove(leg, answer)) return;
+  }
+  answer.status = SpaceStatus::kFree;
+}
+
+// Where a span's sweeps stop, contact may be near: a look ahead tells, and then no span need go
+// beyond it.
+bool MotionCheck::Prove(const Leg& leg, MotionAnswer& answer) {
+  const Duration longest = LongestSpan(leg), shortest = ShortestSpan(leg);
+  const Duration least = std::max(Duration(1), shortest / kFiner);
+  Duration length = longest;
+  Time end = leg.until;  // or the earliest contact that is known
+  for (int spans = 0; answer.free_until < end && spans < kMostSpans; ++spans) {
+    const TimeSpan span{answer.free_until, std::min(end, answer.free_until + length)};
+    const Stop stop = FirstStop(leg, span);
+    if (context_.check.cancelled()) return false;
+    if (stop.share == kNever) {
+      answer.free_until = span.until;
+      length = std::min(2 * length, longest);
+      continue;
+    }
+    answer.free_until = span.At(stop.share);
+    const double shorts = 1 + 2 * stop.slack_m / context_.contact_resolution_m;
+    const Duration ahead = Seconds(shorts * ToSeconds(shortest));
+    for (const Time t : {answer.free_until, std::min(end, answer.free_until + ahead)}) {
+      if (answer.witness && t == end) continue;
+      if (!InContact(leg, t, answer)) continue;
+      end = t;
+      break;
+    }
+    if (answer.witness && end - answer.free_until <= shortest) break;
+    if (span.until - span.from <= least && stop.share < 0.5) break;
+    // The rest of the way to a contact is short already.
+    const bool rest = answer.witness && (stop.share > 0.5 || end < span.until);
+    length = rest ? end - answer.free_until : std::max(least, (span.until - span.from) / 4);
+  }
+  if (answer.witness) {
+    answer.witness->from = answer.free_until;
+    answer.witness->voxel = TouchedVoxel(end, StateAt(leg, end));
+  }
+  return !answer.witness && answer.free_until == leg.until;
+}
+
+Duration MotionCheck::LongestSpan(const Leg& leg) const {
+  double seconds = std::numeric_limits<double>::infinity();
+  for (std::size_t link = 0; link < leg.links.size(); ++link) {
+    const LinkMotion& motion = leg.links[link];
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
+      const Aabb& box_G = part.geometry.box_G();
+      const Eigen::Vector3d center_L = part.T_L_G ? *part.T_L_G * box_G.Center() : box_G.Center();
+      const double turning_mps = 0.5 * motion.spin_radps() * (0.5 * box_G.Size().norm());
+      const double center_mps = motion.speed_mps() + motion.spin_radps() * center_L.norm();
+      seconds = std::min({seconds, kLooseBy_m / turning_mps, kLongest_m / center_mps});
+    }
+  }
+  return Seconds(seconds);
+}
+
+Duration MotionCheck::ShortestSpan(const Leg& leg) const {
+  double fastest_mps = 0;
+  for (std::size_t link = 0; link < leg.links.size(); ++link) {
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
+      const Aabb& box_G = part.geometry.box_G();
+      const double reach_m = 0.5 * box_G.Size().norm() + box_G.Center().norm() +
+                             (part.T_L_G ? part.T_L_G->translation.norm() : 0);
+      const LinkMotion& motion = leg.links[link];
+      fastest_mps = std::max(fastest_mps, motion.speed_mps() + motion.spin_radps() * reach_m);
+    }
+  }
+  return Seconds(context_.contact_resolution_m / (fastest_mps + fastest_object_mps_));
+}
+
+MotionCheck::Stop MotionCheck::FirstStop(const Leg& leg, const TimeSpan& span) const {
+  Stop stop;
+  for (int link = 0; link < static_cast<int>(leg.links.size()); ++link) {
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
+      const MovingPart moving(link, leg.links[link], {leg.from, leg.until}, part,
+                              leg.DeviationOf(link));
+      StopAtStatic(moving, span, stop);
+      if (!scene_.objects.empty()) StopAtObjects(moving, span, stop);
+    }
+  }
+  return stop;
+}
+
+void MotionCheck::StopAtStatic(const MovingPart& part, const TimeSpan& span, Stop& stop) const {
+  const auto [bare, slack_m] = part.InWorld(span, 0);
+  stop.Add(LeaveBounds(bounds_W_, bare).share, slack_m);
+  Sweep sweep = bare;
+  sweep.margin_m += options_.padding_m;
+  const VoxelMap& map_W = scene_.static_map_W;
+  if (!Allowed(part.link(), kStaticLabel)) {
+    for (const Aabb& box_W : scene_.params.keep_out_W) {
+      stop.Add(TouchBox(box_W, sweep, stop.until()).share, slack_m);
+    }
+    stop.Add(TouchOccupied(map_W, sweep, stop.until()).share, slack_m);
+  }
+  if (options_.unknown == UnknownPolicy::kFree) return;
+  const bool padded = options_.unknown == UnknownPolicy::kBlocked;
+  stop.Add(TouchUnobserved(map_W, options_.known_free_W, padded ? sweep : bare, stop.until(),
+                           context_.check.cancelled)
+               .share,
+           slack_m);
+}
+
+void MotionCheck::StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const {
+  const Aabb box_W = part.InWorld(span, options_.padding_m).sweep.Box();
+  context_.index.ForEachNear(box_W, span.from, span.until, [&](std::size_t i) {
+    const MovingObject& object = *scene_.objects[i];
+    if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
+    StopAtObject(part, span, i, stop);
+  });
+}
+
+void MotionCheck::StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t i,
+                               Stop& stop) const {
+  const MovingObject& object = *scene_.objects[i];
+  const auto all = static_cast<double>((span.until - span.from).count());
+  for (Time from = span.from; from < span.until;) {
+    const ObjectPiece piece = PieceFrom(object, from, span.until, scene_.params.horizon);
+    const TimeSpan during{from, piece.until};
+    const double begins = static_cast<double>((from - span.from).count()) / all;
+    const double lasts = static_cast<double>((piece.until - from).count()) / all;
+    from = piece.until;
+    const double until = std::min(1.0, (stop.until() - begins) / lasts);
+    if (until < 0) return;
+    const double margin_m = options_.padding_m + InflationOf(object, during.until, options_);
+    if (piece.beyond_horizon) {
+      const auto [sweep, slack_m] = part.InWorld(during, margin_m);
+      const FirstTouch touch =
+          TouchBall(piece.T_W_O.translation, piece.RadiusAt(during.until), sweep, until);
+      stop.Add(begins + lasts * touch.share, slack_m);
+      continue;
+    }
+    if (object.solid->box_O.Empty()) continue;
+    const auto [sweep, slack_m] = part.InObject(piece, during, margin_m);
+    const ShapeGeometry* const hull = context_.hulls[i].get();
+    const FirstTouch touch = hull != nullptr ? TouchHull(*hull, sweep, until)
+                                             : TouchOccupied(object.map_O, sweep, until);
+    stop.Add(begins + lasts * touch.share, slack_m);
+  }
+}
+
+bool MotionCheck::Allowed(int link, ObjectId object) const {
+  return context_.check.allowed_contacts.contains({link, object});
+}
+
+bool MotionCheck::Ignored(ObjectId object) const {
+  const auto& ignored = options_.ignored_objects;
+  return std::find(ignored.begin(), ignored.end(), object) != ignored.end();
+}
+
+StateAnswer MotionCheck::StateAt(const Leg& leg, Time t) {
+  const double fraction = ToSeconds(t - leg.from) / ToSeconds(leg.until - leg.from);
+  T_W_L_.clear();
+  for (const LinkMotion& motion : leg.links) T_W_L_.push_back(motion.At(fraction));
+  StateAnswer answer;
+  states_.Answer(t, T_W_L_.data(), answer);
+  return answer;
+}
+
+bool MotionCheck::InContact(const Leg& leg, Time t, MotionAnswer& answer) {
+  const StateAnswer state = StateAt(leg, t);
+  if (state.status == SpaceStatus::kFree) return false;
+  answer.status = state.status;
+  answer.witness = MotionWitness{t, t, state.link, state.object, std::nullopt};
+  return true;
+}
+
+std::optional<VoxelKey> MotionCheck::TouchedVoxel(Time t, const StateAnswer& state) const {
+  if (state.link < 0 || state.status == SpaceStatus::kOutOfBounds) return std::nullopt;
+  const MovingObject* const object = scene_.FindObject(state.object);
+  for (const auto& [geometry, T_L_G] : robot_.links()[state.link]) {
+    const Pose T_W_G = T_W_L_[state.link] * T_L_G.value_or(Pose{});
+    Sweep here{PlacedShape(geometry, T_W_G), Eigen::Vector3d::Zero(), options_.padding_m};
+    FirstTouch touch;
+    if (object != nullptr) {
+      const PredictedPose at = PredictPose(*object, t, scene_.params.horizon);
+      if (at.beyond_horizon_radius_m || scene_.params.solid != SolidMode::kVoxels) continue;
+      here.shape_F = here.shape_F.In(Inverse(at.T_W_O));
+      here.margin_m += InflationOf(*object, t, options_);
+      touch = TouchOccupied(object->map_O, here, 1);
+    } else if (state.status == SpaceStatus::kOccupied) {
+      touch = TouchOccupied(scene_.static_map_W, here, 1);
+    } else {
+      touch = TouchUnobserved(scene_.static_map_W, options_.known_free_W, here, 1,
+                              context_.check.cancelled);
+    }
+    if (touch.voxel) return touch.voxel;
+  }
+  return std::nullopt;
+}
+
+}  // namespace clearway

@@ -1,0 +1,84 @@
+// One motion of a robot against one scene.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "clearway/collision/motion.h"
+#include "clearway/scene/object_index.h"
+#include "collision/link_motion.h"
+#include "collision/moving_part.h"
+#include "collision/state_check.h"
+#include "collision/sweep.h"
+
+namespace clearway {
+
+// What all motions of a batch have in common. Refers to all of it.
+struct MotionContext {
+  const CheckContext& check;  // for states
+  const ObjectHulls& hulls;
+  const ObjectIndex& index;  // for all times of the batch
+  double contact_resolution_m;
+};
+
+// Proves motions free, or finds their first contact, from the first knot on by spans of time: what
+// no part's sweep touches is free; else the span is cut where something may be touched, and what
+// follows is tried again by shorter spans, whose sweeps fit closer. Lives on one thread's stack.
+class MotionCheck {
+ public:
+  MotionCheck(const MotionContext& context, const RobotGeometry& robot);
+
+  // deviations_m: null, or one for each pose.
+  void Answer(std::span<const Time> times, const Pose* T_W_L, const double* deviations_m,
+              MotionAnswer& answer);
+
+ private:
+  // From one knot to the next.
+  struct Leg {
+    Time from, until;
+    std::vector<LinkMotion> links;
+    const double* deviations_m;  // of the links; null: none
+
+    double DeviationOf(int link) const { return deviations_m == nullptr ? 0 : deviations_m[link]; }
+  };
+  // What a span's sweeps touch first.
+  struct Stop {
+    double share = kNever;
+    double slack_m = 0;  // of the sweep that does: what it is larger than it need be
+    void Add(double touched, double slack) {
+      if (touched < share) *this = {touched, slack};
+    }
+    double until() const { return std::min(share, 1.0); }
+  };
+
+  // Whether the leg is free; else the answer is complete.
+  bool Prove(const Leg& leg, MotionAnswer& answer);
+  Duration LongestSpan(const Leg& leg) const;
+  Duration ShortestSpan(const Leg& leg) const;
+  Stop FirstStop(const Leg& leg, const TimeSpan& span) const;
+  void StopAtStatic(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  void StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  void StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t object,
+                    Stop& stop) const;
+  bool Allowed(int link, ObjectId object) const;
+  bool Ignored(ObjectId object) const;
+
+  StateAnswer StateAt(const Leg& leg, Time t);
+  // Whether the state at `t` is not free; then the answer gets its status and its contact.
+  bool InContact(const Leg& leg, Time t, MotionAnswer& answer);
+  // Of what the state last asked about touches.
+  std::optional<VoxelKey> TouchedVoxel(Time t, const StateAnswer& state) const;
+
+  const MotionContext& context_;
+  const SceneSnapshot& scene_;
+  const CheckOptions& options_;
+  const RobotGeometry& robot_;
+  StateCheck states_;
+  Aabb bounds_W_;
+  double fastest_object_mps_ = 0;  // of any of its points
+  std::vector<Pose> T_W_L_;        // of StateAt
+};
+
+}  // namespace clearway

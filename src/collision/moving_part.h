@@ -1,0 +1,66 @@
+// The sweeps that hold a moving shape for a while.
+#pragma once
+
+#include "clearway/base/time.h"
+#include "collision/link_motion.h"
+#include "collision/object_motion_piece.h"
+#include "collision/robot_geometry.h"
+#include "collision/sweep.h"
+
+namespace clearway {
+
+struct TimeSpan {
+  Time from, until;
+
+  double seconds() const { return ToSeconds(until - from); }
+  Time Middle() const { return from + (until - from) / 2; }
+  Time At(double share) const {  // rounded down
+    return from +
+           Duration(static_cast<std::int64_t>(share * static_cast<double>((until - from).count())));
+  }
+};
+
+// A sweep, and by how much its margin exceeds what is asked for: what the shape strays from the
+// sweep's straight way and turns away from its one orientation.
+struct LooseSweep {
+  Sweep sweep;
+  double slack_m;
+};
+
+// One shape of a link on one leg of a motion. Its centre is carried along the chord of its way, as
+// it is turned in the middle of the span; what a point strays from that goes to the margin: with an
+// acceleration of at most `a`, the way strays from its chord by no more than a t^2 / 8. Against an
+// object, this is done as seen from the object (Schwarzer, Saha and Latombe, "Adaptive Dynamic
+// Collision Checking for Single and Multiple Articulated Robots in Complex Environments", 2005,
+// bound motions likewise). Refers to what it is made of.
+class MovingPart {
+ public:
+  // The link moves from `leg`.from to `leg`.until.
+  MovingPart(int link, const LinkMotion& motion, const TimeSpan& leg,
+             const RobotGeometry::Part& part, double deviation_m);
+
+  int link() const { return link_; }
+
+  // In W, for a span of the leg; margin_m is what is asked for.
+  LooseSweep InWorld(const TimeSpan& span, double margin_m) const;
+  // In the frame O of an object that moves alike all the while.
+  LooseSweep InObject(const ObjectPiece& object, const TimeSpan& span, double margin_m) const;
+
+ private:
+  Pose LinkAt(Time t) const { return motion_.At(ToSeconds(t - leg_.from) / leg_.seconds()); }
+  LooseSweep SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vector3d& until_F,
+                     const Eigen::Quaterniond& R_F_L, double margin_m, double slack_m) const;
+
+  int link_;
+  const LinkMotion& motion_;
+  TimeSpan leg_;
+  const ShapeGeometry& geometry_;
+  Pose T_L_G_;
+  Eigen::Vector3d center_L_;
+  double radius_m_;  // how far turning about the centre moves a point, at most, a radian
+  double deviation_m_;
+  double center_mps_;   // at most
+  double center_mps2_;  // its acceleration
+};
+
+}  // namespace clearway

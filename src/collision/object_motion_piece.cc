@@ -1,0 +1,54 @@
+#include "collision/object_motion_piece.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+ObjectPiece Resting(const Pose& T_W_O, Time from, Time until) {
+  ObjectPiece piece;
+  piece.from = piece.start = from;
+  piece.until = until;
+  piece.T_W_O = T_W_O;
+  return piece;
+}
+
+// Between two poses of the history, as Interpolate.
+ObjectPiece Between(const StampedPose& before, const StampedPose& after, Time from, Time last) {
+  ObjectPiece piece = Resting(before.T_W_O, from, std::min(last, after.stamp));
+  piece.start = before.stamp;
+  piece.velocity_O =
+      (1 / ToSeconds(after.stamp - before.stamp)) * Log(Inverse(before.T_W_O) * after.T_W_O);
+  return piece;
+}
+
+}  // namespace
+
+ObjectPiece PieceFrom(const MovingObject& object, Time t, Time last, Duration horizon) {
+  const std::vector<StampedPose>& history = object.history;
+  const StampedPose &oldest = history.front(), &newest = history.back();
+  if (t < oldest.stamp) return Resting(oldest.T_W_O, t, std::min(last, oldest.stamp));
+  if (t < newest.stamp) {
+    const auto after = std::upper_bound(history.begin(), history.end(), t,
+                                        [](Time a, const StampedPose& b) { return a < b.stamp; });
+    return Between(*(after - 1), *after, t, last);
+  }
+  if (object.AtRest()) return Resting(newest.T_W_O, t, last);
+  const Time end = newest.stamp + horizon;
+  ObjectPiece piece = Resting(newest.T_W_O, t, last);
+  piece.start = newest.stamp;
+  piece.velocity_O = *object.velocity_O;
+  if (t < end) {
+    piece.until = std::min(last, end);
+    return piece;
+  }
+  piece.T_W_O = piece.At(end);
+  piece.start = end;
+  piece.velocity_O = {};
+  piece.beyond_horizon = true;
+  piece.radius_m = object.solid->radius_m;
+  piece.growth_mps = object.SpeedMps();
+  return piece;
+}
+
+}  // namespace clearway

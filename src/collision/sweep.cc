@@ -1,0 +1,220 @@
+#include "collision/sweep.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "absl/container/inlined_vector.h"
+#include "collision/cube_contact.h"
+
+namespace clearway {
+namespace {
+
+constexpr double kTouching_m = 1e-7;
+constexpr int kMostSteps = 24;
+
+// Goes on by what is certainly free until gap_m(share), at most the gap at that share of the way,
+// is none. (Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996: conservative
+// advancement.)
+template <class Gap>
+double Advance(double length_m, double from, double until, Gap&& gap_m) {
+  double share = from;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (share > until) return kNever;
+    const double gap = gap_m(share);
+    if (gap <= kTouching_m) return share;
+    if (gap > length_m) return kNever;  // more than is left
+    share += gap / length_m;
+  }
+  return share > until ? kNever : share;
+}
+
+Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
+
+// Among voxels, from large cubes to small ones. To move the shape is to move the cubes the other
+// way.
+class Search {
+ public:
+  Search(const VoxelGrid& grid, const Sweep& sweep, double until)
+      : grid_(grid),
+        sweep_(sweep),
+        contact_(sweep.shape_F, 0),
+        length_m_(sweep.way_F.norm()),
+        until_(until) {}
+
+  // Before which share none of the block's voxels is touched; kNever if none is before what is
+  // found so far.
+  double BlockTouched(BlockKey block) const { return CubeTouched(VoxelAt(block, 0), kBlockSize); }
+  bool Misses(BlockKey block) const { return BlockTouched(block) == kNever; }
+
+  // Looks at the voxels that are marked.
+  void Look(BlockKey block, const BlockMask& voxels) {
+    const VoxelKey base = VoxelAt(block, 0);
+    for (int octant = 0; octant < 8; ++octant) {
+      const VoxelKey corner{base.x + kHalf * (octant & 1), base.y + kHalf * (octant >> 1 & 1),
+                            base.z + kHalf * (octant >> 2)};
+      LookAtOctant(block, octant, corner, voxels);
+    }
+  }
+
+  const FirstTouch& found() const { return found_; }
+  double until() const { return until_; }
+
+ private:
+  static constexpr int kHalf = kBlockSize / 2;
+
+  void LookAtOctant(BlockKey block, int octant, VoxelKey corner, const BlockMask& voxels) {
+    const std::uint64_t quarter = std::uint64_t{0x0f0f0f0f} << kHalf * (octant & 1)
+                                                            << 32 * (octant >> 1 & 1);
+    const int first_layer = kHalf * (octant >> 2);
+    std::uint64_t any = 0;
+    for (int z = first_layer; z < first_layer + kHalf; ++z) any |= voxels.words[z] & quarter;
+    if (any == 0 || CubeTouched(corner, kHalf) == kNever) return;
+    for (int z = first_layer; z < first_layer + kHalf; ++z) {
+      for (std::uint64_t word = voxels.words[z] & quarter; word != 0; word &= word - 1) {
+        LookAt(VoxelAt(block, z * 64 + std::countr_zero(word)));
+      }
+    }
+  }
+
+  double CubeTouched(VoxelKey corner, int edge) const {
+    const double half_m = 0.5 * edge * grid_.resolution_m();
+    const Eigen::Vector3d center =
+        grid_.resolution_m() * Eigen::Vector3d(corner.x, corner.y, corner.z) +
+        Eigen::Vector3d::Constant(half_m);
+    return Touched(center, half_m);
+  }
+
+  // By what is quick.
+  double Touched(const Eigen::Vector3d& center, double half_m) const {
+    return Advance(length_m_, 0, until_, [&](double share) {
+      return contact_.DistanceTo(center - share * sweep_.way_F, half_m).least_m - sweep_.margin_m;
+    });
+  }
+
+  void LookAt(VoxelKey key) {
+    const Eigen::Vector3d center = grid_.CenterOf(key);
+    const double half_m = 0.5 * grid_.resolution_m();
+    double share = Touched(center, half_m);
+    if (share == kNever) return;
+    const Aabb cube = grid_.BoxOf(key);
+    share = Advance(length_m_, share, until_, [&](double at) {
+      const Eigen::Vector3d by = -at * sweep_.way_F;
+      const double gap_m = contact_.Gap(center + by, half_m) - sweep_.margin_m;
+      if (gap_m > kTouching_m) return gap_m;
+      if (contact_.DistanceTo(center + by, half_m).most_m <= sweep_.margin_m) return 0.0;
+      const double up_to_m = sweep_.margin_m + length_m_;
+      return sweep_.shape_F.DistanceTo(Moved(cube, by), up_to_m) - sweep_.margin_m;
+    });
+    if (share == kNever) return;
+    // What is hardly nearer is no news.
+    const double earlier = sweep_.tolerance_m < length_m_ ? sweep_.tolerance_m / length_m_ : 1;
+    found_ = {std::max(0.0, share - earlier), key};
+    until_ = std::nextafter(found_.share, -1.0);
+  }
+
+  const VoxelGrid& grid_;
+  const Sweep& sweep_;
+  CubeContact contact_;  // without the margin
+  double length_m_;
+  double until_;
+  FirstTouch found_;
+};
+
+}  // namespace
+
+// The blocks that may be touched first come first: then most others cannot be touched before.
+FirstTouch TouchOccupied(const VoxelMap& map_F, const Sweep& sweep, double until) {
+  struct Candidate {
+    double share;
+    BlockKey key;
+    const VoxelBlock* block;
+  };
+  KeyRange keys;
+  if (!KeysTouching(map_F.grid(), sweep.Box(), keys)) return {};
+  Search search(map_F.grid(), sweep, until);
+  absl::InlinedVector<Candidate, 64> candidates;
+  map_F.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
+                               [&](BlockKey key, const VoxelBlock& block) {
+                                 const double share = search.BlockTouched(key);
+                                 if (share != kNever) candidates.push_back({share, key, &block});
+                                 return false;
+                               });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.share < b.share; });
+  for (const auto& [share, key, block] : candidates) {
+    if (share > search.until()) break;
+    search.Look(key, RangeInBlock(key, keys).Of(block->occupied));
+  }
+  return search.found();
+}
+
+FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known_free_F,
+                           const Sweep& sweep, double until, const Cancelled& cancelled) {
+  KeyRange keys;
+  if (!KeysTouching(map_F.grid(), sweep.Box(), keys)) return {};
+  Search search(map_F.grid(), sweep, until);
+  AnyBlock(map_F.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+           [&](BlockKey key, const VoxelBlock* block) {
+             BlockMask voxels = RangeInBlock(key, keys).All();
+             if (block != nullptr) voxels.Subtract(block->observed);
+             if (!voxels.Any() || search.Misses(key)) return false;
+             if (!known_free_F.empty()) {
+               const BlockMask candidates = voxels;
+               candidates.ForEach([&](int index) {
+                 const Eigen::Vector3d center = map_F.grid().CenterOf(VoxelAt(key, index));
+                 if (InOneOf(known_free_F, center)) voxels.Clear(index);
+               });
+             }
+             search.Look(key, voxels);
+             return cancelled();
+           });
+  return search.found();
+}
+
+FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
+  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  return {Advance(length_m, 0, until,
+                  [&](double share) {
+                    const Aabb moved = Moved(box_F, -share * sweep.way_F);
+                    return sweep.shape_F.DistanceTo(moved, up_to_m) - sweep.margin_m;
+                  }),
+          std::nullopt};
+}
+
+FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until) {
+  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  return {Advance(length_m, 0, until,
+                  [&](double share) {
+                    const Pose moved{Eigen::Quaterniond::Identity(), -share * sweep.way_F};
+                    return sweep.shape_F.DistanceToHull(hull, moved, up_to_m) - sweep.margin_m;
+                  }),
+          std::nullopt};
+}
+
+FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
+                     double until) {
+  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  return {Advance(length_m, 0, until,
+                  [&](double share) {
+                    const Eigen::Vector3d moved = center_F - share * sweep.way_F;
+                    return sweep.shape_F.DistanceToBall(moved, radius_m, up_to_m) - sweep.margin_m;
+                  }),
+          std::nullopt};
+}
+
+FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep) {
+  const Aabb box = sweep.shape_F.box_F().Padded(sweep.margin_m);
+  double share = kNever;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = sweep.way_F[axis];
+    const double before = box.min[axis] - bounds_F.min[axis];
+    const double behind = bounds_F.max[axis] - box.max[axis];
+    if (before < 0 || behind < 0) return {0, std::nullopt};
+    if (way > behind) share = std::min(share, behind / way);
+    if (-way > before) share = std::min(share, before / -way);
+  }
+  return {share, std::nullopt};
+}
+
+}  // namespace clearway

@@ -1,0 +1,53 @@
+// How far a shape goes until it touches something.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "clearway/map/voxel_map.h"
+#include "collision/narrowphase.h"
+#include "collision/voxel_search.h"
+
+namespace clearway {
+
+// A shape on a straight way, without turning, with a margin round it. In one frame F.
+struct Sweep {
+  PlacedShape shape_F;  // where it begins
+  Eigen::Vector3d way_F;
+  double margin_m;
+  double tolerance_m = 0;  // how much too early a touch may be said to be
+
+  // Around all of it.
+  Aabb Box() const {
+    Aabb box = shape_F.box_F();
+    box.Extend(Aabb{box.min + way_F, box.max + way_F});
+    return box.Padded(margin_m);
+  }
+};
+
+// Where on its way a shape may touch something first: a share of the way, from 0 to 1. Before that
+// it certainly does not. kNever: nowhere.
+inline constexpr double kNever = std::numeric_limits<double>::infinity();
+struct FirstTouch {
+  double share = kNever;
+  std::optional<VoxelKey> voxel;  // the one that is touched, if it is one
+};
+
+// Each looks only as far as `until`, a share, and answers kNever if there is nothing before it.
+//
+// Occupied voxels of a map in F.
+FirstTouch TouchOccupied(const VoxelMap& map_F, const Sweep& sweep, double until);
+// Voxels never observed whose centre lies in none of the boxes. Meaningless once `cancelled`.
+FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known_free_F,
+                           const Sweep& sweep, double until, const Cancelled& cancelled);
+FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until);
+// A convex hull whose frame is F.
+FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until);
+FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
+                     double until);
+
+// Where the shape, its margin included, leaves the bounds first.
+FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep);
+
+}  // namespace clearway

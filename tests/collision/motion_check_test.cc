@@ -1,0 +1,245 @@
+// Motions against states at many of their times.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clearway/collision/scene_checker.h"
+#include "clearway/scene/scene_builder.h"
+#include "collision/link_motion.h"
+#include "collision/random_world.h"
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::Random;
+
+struct Asked {
+  MotionBatch motions;
+  std::size_t links;
+
+  std::size_t count() const { return motions.knot_counts.size(); }
+};
+
+// The state between two knots at this time, as the motions promise.
+StateBatch StatesAt(const Asked& asked, std::size_t first_knot, std::size_t knots,
+                    const std::vector<Time>& times) {
+  StateBatch states;
+  for (const Time t : times) {
+    std::size_t k = first_knot;
+    while (k + 2 < first_knot + knots && asked.motions.times[k + 1] <= t) ++k;
+    const Time from = asked.motions.times[k], until = asked.motions.times[k + 1];
+    const double seconds = ToSeconds(until - from), fraction = ToSeconds(t - from) / seconds;
+    states.times.push_back(t);
+    for (std::size_t link = 0; link < asked.links; ++link) {
+      const Pose* const poses = &asked.motions.T_W_L[k * asked.links + link];
+      states.T_W_L.push_back(LinkMotion(poses[0], poses[asked.links], seconds).At(fraction));
+    }
+  }
+  return states;
+}
+
+// Of two to four knots. Links go together, each a little on its own.
+Asked RandomMotions(RandomWorld& random, const Robot& robot, int count) {
+  Asked asked{{}, robot.links.size()};
+  for (int m = 0; m < count; ++m) {
+    const StateBatch start = random.States(robot, 1);
+    const int knots = 2 + random.Below(3);
+    asked.motions.knot_counts.push_back(knots);
+    Time t = start.times[0];
+    std::vector<Pose> T_W_L = start.T_W_L;
+    for (int k = 0; k < knots; ++k) {
+      asked.motions.times.push_back(t);
+      asked.motions.T_W_L.insert(asked.motions.T_W_L.end(), T_W_L.begin(), T_W_L.end());
+      t += FromSeconds(random.Uniform(0.01, 1.5));
+      const double reach_m = random.Below(4) == 0 ? 0 : random.Uniform(0, 1);
+      const double turn_rad = random.Below(3) == 0 ? 0 : random.Uniform(0, 1.5);
+      const Aabb around{Eigen::Vector3d::Constant(-reach_m), Eigen::Vector3d::Constant(reach_m)};
+      const Eigen::Vector3d way_W = random.Point(around);
+      const Eigen::AngleAxisd turn(turn_rad,
+                                   random.AnyPose(around).rotation * Eigen::Vector3d::UnitZ());
+      for (Pose& pose : T_W_L) {
+        pose = {Eigen::Quaterniond(turn) * pose.rotation,
+                pose.translation + way_W + 0.1 * random.Point(around)};
+      }
+    }
+  }
+  return asked;
+}
+
+MotionOptions RandomOptions(RandomWorld& random, const Robot& robot) {
+  MotionOptions options;
+  options.check = random.Options(robot);
+  options.check.clearance_up_to_m.reset();
+  options.check.with_unknown_fraction = false;
+  return options;
+}
+
+struct Counts {
+  int motions = 0, tolerated = 0, unresolved = 0, unresolved_tolerated = 0, with_voxel = 0;
+  std::array<int, 6> by_status{};
+  int Of(SpaceStatus status) const { return by_status[static_cast<std::size_t>(status)]; }
+};
+
+// `count` times from `from` on, the last at `until`.
+std::vector<Time> TimesIn(Time from, Time until, int count) {
+  std::vector<Time> times;
+  for (int i = 0; i < count; ++i)
+    times.push_back(from + (until - from) * i / std::max(1, count - 1));
+  return times;
+}
+
+void CheckMotions(const SceneChecker& checker, const Asked& asked, const MotionOptions& options,
+                  int samples, Counts& counts) {
+  const auto reply = checker.CheckMotions(asked.motions, options);
+  ASSERT_TRUE(reply.ok()) << reply.status();
+  ASSERT_EQ(reply->answers.size(), asked.count());
+  const bool tolerated = options.check.unknown == UnknownPolicy::kTolerated;
+  std::size_t first = 0;
+  for (std::size_t m = 0; m < asked.count(); ++m) {
+    const MotionAnswer& answer = reply->answers[m];
+    const std::size_t knots = asked.motions.knot_counts[m];
+    const Time from = asked.motions.times[first], until = asked.motions.times[first + knots - 1];
+    ++counts.motions;
+    counts.tolerated += tolerated;
+    ++counts.by_status[static_cast<std::size_t>(answer.status)];
+    const bool unresolved = answer.status == SpaceStatus::kUnresolved;
+    counts.unresolved += unresolved;
+    counts.unresolved_tolerated += unresolved && tolerated;
+    ASSERT_GE(answer.free_until, from);
+    ASSERT_LE(answer.free_until, until);
+    ASSERT_EQ(answer.status == SpaceStatus::kFree, answer.free_until == until && !answer.witness);
+    ASSERT_EQ(answer.witness.has_value(), !unresolved && answer.status != SpaceStatus::kFree);
+    if (answer.free_until > from) {
+      const StateBatch states =
+          StatesAt(asked, first, knots, TimesIn(from, answer.free_until - Duration(1), samples));
+      const auto truth = checker.Check(states, options.check);
+      ASSERT_TRUE(truth.ok()) << truth.status();
+      for (std::size_t s = 0; s < truth->answers.size(); ++s) {
+        ASSERT_EQ(truth->answers[s].status, SpaceStatus::kFree)
+            << "motion " << m << ", sample " << s << " of " << samples;
+      }
+    }
+    if (answer.witness) {
+      EXPECT_EQ(answer.witness->from, answer.free_until);
+      const auto truth =
+          checker.Check(StatesAt(asked, first, knots, {answer.witness->until}), options.check);
+      ASSERT_TRUE(truth.ok()) << truth.status();
+      EXPECT_EQ(truth->answers[0].status, answer.status);
+      EXPECT_EQ(truth->answers[0].link, answer.witness->link);
+      EXPECT_EQ(truth->answers[0].object, answer.witness->object);
+      counts.with_voxel += answer.witness->voxel.has_value();
+    }
+    first += knots;
+  }
+}
+
+TEST(MotionCheck, NothingCalledFreeIsInContact) {
+  Counts counts;
+  for (std::uint32_t seed = 0; seed < 150; ++seed) {
+    RandomWorld random(7000 + seed);
+    const ScenePtr scene = random.Scene();
+    const Robot robot =
+        seed % 2 == 0 ? random.AnyRobot() : Robot::SingleShape("one", random.AnyShape());
+    const SceneChecker checker(scene, robot);
+    CheckMotions(checker, RandomMotions(random, robot, 20), RandomOptions(random, robot), 200,
+                 counts);
+    if (HasFatalFailure()) FAIL() << "seed " << seed;
+  }
+  std::cout << counts.motions << " motions, " << counts.unresolved << " unresolved, "
+            << counts.unresolved_tolerated << " of them with tolerated unknown space of "
+            << counts.tolerated << "; " << counts.with_voxel << " with a voxel;";
+  for (int s = 0; s < 6; ++s) {
+    std::cout << " " << counts.by_status[s] << " " << ToString(static_cast<SpaceStatus>(s)) << ",";
+  }
+  std::cout << "\n";
+  for (const SpaceStatus status :
+       {SpaceStatus::kFree, SpaceStatus::kUnknownSpace, SpaceStatus::kBeyondHorizon,
+        SpaceStatus::kOccupied, SpaceStatus::kOutOfBounds}) {
+    EXPECT_GT(counts.Of(status), counts.motions / 20) << ToString(status);
+  }
+  EXPECT_LE(100 * (counts.unresolved - counts.unresolved_tolerated), counts.motions);
+  EXPECT_GT(counts.with_voxel, counts.motions / 5);
+}
+
+// From (-2, 0, 0) to (2, 0, 0) in 2 s past a wall whose near side is at x = 1.
+class MotionCheckAtAWall : public testing::Test {
+ protected:
+  MotionCheckAtAWall() {
+    auto scene = std::make_shared<SceneSnapshot>(SceneSnapshot::Empty(SceneParams{}));
+    for (std::int32_t y = -10; y < 10; ++y) {
+      for (std::int32_t z = -10; z < 10; ++z) scene->static_map_W.Set({10, y, z}, 100);
+    }
+    scene_ = scene;
+    options_.check.unknown = UnknownPolicy::kFree;
+    motions_.knot_counts = {2};
+    motions_.times = {Time(), Time() + FromSeconds(2)};
+    motions_.T_W_L = {Pose::Translation(-2, 0, 0), Pose::Translation(2, 0, 0)};
+  }
+
+  absl::StatusOr<MotionReply> Ask() const {
+    return SceneChecker(scene_, Robot::SingleShape("ball", Sphere{0.5}))
+        .CheckMotions(motions_, options_);
+  }
+
+  ScenePtr scene_;
+  MotionBatch motions_;
+  MotionOptions options_;
+};
+
+TEST_F(MotionCheckAtAWall, FindsTheContact) {
+  const auto dut = Ask();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  const MotionAnswer& answer = dut->answers[0];
+  EXPECT_EQ(answer.status, SpaceStatus::kOccupied);
+  ASSERT_TRUE(answer.witness.has_value());
+  const double contact_s = 1.25;                                         // at x = 0.5
+  EXPECT_NEAR(ToSeconds(answer.free_until - Time()), contact_s, 0.006);  // 1 cm
+  EXPECT_LE(ToSeconds(answer.free_until - Time()), contact_s);
+  EXPECT_GE(ToSeconds(answer.witness->until - Time()), contact_s - 1e-6);
+  EXPECT_LE(ToSeconds(answer.witness->until - answer.witness->from), 0.006);
+  ASSERT_TRUE(answer.witness->voxel.has_value());
+  EXPECT_EQ(answer.witness->voxel->x, 10);
+}
+
+TEST_F(MotionCheckAtAWall, DeviationsAndPaddingKeepAway) {
+  motions_.T_W_L[1] = Pose::Translation(0.4, 0, 0);  // 0.1 m before it
+  EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kFree);
+  motions_.deviations_m = {0.09, 0};
+  EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kFree);
+  motions_.deviations_m = {0.11, 0};
+  EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kUnresolved);
+  motions_.deviations_m.clear();
+  options_.check.padding_m = 0.11;
+  EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kOccupied);
+}
+
+TEST_F(MotionCheckAtAWall, BadInputIsNamed) {
+  const auto message = [this] { return std::string(Ask().status().message()); };
+  const MotionBatch good = motions_;
+  motions_.knot_counts = {1};
+  EXPECT_THAT(message(), testing::HasSubstr("knot_counts[0] is 1"));
+  motions_.knot_counts = {3};
+  EXPECT_THAT(message(), testing::HasSubstr("times_ns has 2 knots"));
+  motions_.knot_counts = {};
+  EXPECT_THAT(message(), testing::HasSubstr("times_ns has 2 knots"));
+  motions_ = good;
+  motions_.times[1] = motions_.times[0];
+  EXPECT_THAT(message(), testing::HasSubstr("times_ns[1] is not later"));
+  motions_ = good;
+  motions_.deviations_m = {0.1};
+  EXPECT_THAT(message(), testing::HasSubstr("deviations_m has 1 entries"));
+  motions_.deviations_m = {0.1, std::nan("")};
+  EXPECT_THAT(message(), testing::HasSubstr("deviations_m[1] is nan"));
+  motions_ = good;
+  options_.check.clearance_up_to_m = 1;
+  EXPECT_THAT(message(), testing::HasSubstr("clearance_up_to_m"));
+  options_.check.clearance_up_to_m.reset();
+  options_.contact_resolution_m = 0;
+  EXPECT_THAT(message(), testing::HasSubstr("contact_resolution_m is 0"));
+}
+
+}  // namespace
+}  // namespace clearway
