@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
 #include "collision/closed_form.h"
+#include "collision/slow_mesh.h"
 #include "collision/test_meshes.h"
 #include "support/random.h"
 
@@ -16,8 +16,6 @@ namespace clearway {
 namespace {
 
 using testing_support::Random;
-
-constexpr double kFar_m = std::numeric_limits<double>::infinity();
 
 struct Effort {
   std::string name;
@@ -42,15 +40,6 @@ Aabb BoxOf(const Mesh& mesh) {
   return box;
 }
 
-double SurfaceDistance(const Mesh& mesh, const Eigen::Vector3d& p) {
-  double nearest_m = kFar_m;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    nearest_m = std::min(
-        nearest_m, PointTriangleDistance(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
-  }
-  return nearest_m;
-}
-
 // Of an open mesh too, by the sum of the angles under which its triangles are seen.
 bool Inside(const Mesh& mesh, const Aabb& box, const Eigen::Vector3d& p) {
   double angle = 0;
@@ -58,11 +47,6 @@ bool Inside(const Mesh& mesh, const Aabb& box, const Eigen::Vector3d& p) {
     angle += SolidAngle(mesh.vertices[a] - p, mesh.vertices[b] - p, mesh.vertices[c] - p);
   }
   return box.Contains(p) && std::abs(angle) > 2 * std::numbers::pi;
-}
-
-// A point near the mesh, at times far off.
-Eigen::Vector3d PointNear(const TestMesh& test, Random& random) {
-  return random.Vector(test.size_m * (random.Integer(0, 5) == 0 ? 4 : 1.3));
 }
 
 class DistanceGridTest : public testing::TestWithParam<TestMesh> {
@@ -80,7 +64,7 @@ TEST_P(DistanceGridTest, BoundsTheDistance) {
     for (int i = 0; i < 500; ++i) {
       const Eigen::Vector3d p = PointNear(GetParam(), random);
       const DistanceGrid::Surroundings around = dut.At(p);
-      const double distance_m = SurfaceDistance(*mesh_, p), unsure_m = 1e-12 * (1 + distance_m);
+      const double distance_m = SlowSurfaceDistance(*mesh_, p), unsure_m = 1e-12 * (1 + distance_m);
       ASSERT_LE(around.near_m, distance_m + unsure_m) << effort.name;
       ASSERT_GE(around.far_m, distance_m - unsure_m) << effort.name;
     }

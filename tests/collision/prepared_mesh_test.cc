@@ -14,6 +14,7 @@
 #include "collision/brute_geometry.h"
 #include "collision/closed_form.h"
 #include "collision/cube_contact.h"
+#include "collision/slow_mesh.h"
 #include "collision/test_meshes.h"
 #include "support/random.h"
 
@@ -24,20 +25,6 @@ using testing_support::Random;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kUnsure_m = 1e-6;
-
-double BruteSurfaceDistance(const Mesh& mesh, const Eigen::Vector3d& p) {
-  double nearest_m = kFar;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    nearest_m = std::min(
-        nearest_m, PointTriangleDistance(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
-  }
-  return nearest_m;
-}
-
-// A point near the mesh, at times far off.
-Eigen::Vector3d PointNear(const TestMesh& test, Random& random) {
-  return random.Vector(test.size_m * (random.Integer(0, 5) == 0 ? 4 : 1.3));
-}
 
 // Where the budget does not reach, other ways lead to the same answers.
 struct Effort {
@@ -79,7 +66,7 @@ TEST_P(PreparedMeshTest, HoldsThePointsThatTheMeshWindsRound) {
   const Shape shape = TriangleMesh{Test().mesh};
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector3d p = PointNear(Test(), random);
-    if (BruteSurfaceDistance(*Test().mesh, p) < kUnsure_m) continue;
+    if (SlowSurfaceDistance(*Test().mesh, p) < kUnsure_m) continue;
     EXPECT_EQ(dut_.Contains(p), Contains(shape, p)) << p.transpose();
   }
 }
@@ -89,7 +76,7 @@ TEST_P(PreparedMeshTest, DistancesOfPointsAreThoseOfTheNearestTriangle) {
   const Shape shape = TriangleMesh{Test().regular};
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d p = PointNear(Test(), random);
-    const double surface_m = BruteSurfaceDistance(*Test().regular, p);
+    const double surface_m = SlowSurfaceDistance(*Test().regular, p);
     const double expected_m = Contains(shape, p) ? 0 : surface_m;
     if (surface_m < kUnsure_m) continue;
     EXPECT_NEAR(dut_.DistanceTo(p, kFar), expected_m, 1e-8);
@@ -120,7 +107,7 @@ TEST_P(PreparedMeshTest, WhatIsCertainRoundAPointIsTrue) {
   int certain = 0;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector3d p = PointNear(Test(), random);
-    const double surface_m = BruteSurfaceDistance(*Test().mesh, p);
+    const double surface_m = SlowSurfaceDistance(*Test().mesh, p);
     const DistanceGrid::Surroundings around = dut_.Around(p);
     EXPECT_LE(around.near_m, surface_m + 1e-9);
     EXPECT_GE(around.far_m, surface_m - 1e-9);
