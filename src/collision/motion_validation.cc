@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "absl/strings/str_cat.h"
 #include "clearway/collision/motion.h"
 #include "collision/validation.h"

@@ -7,7 +7,7 @@ namespace {
 
 ObjectPiece Resting(const Pose& T_W_O, Time from, Time until) {
   ObjectPiece piece;
-  piece.from = piece.start = from;
+  piece.start = from;
   piece.until = until;
   piece.T_W_O = T_W_O;
   return piece;

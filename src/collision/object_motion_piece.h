@@ -1,19 +1,17 @@
 // The parts of an object's way on which it moves alike.
 #pragma once
 
-#include <vector>
-
 #include "clearway/base/time.h"
 #include "clearway/scene/moving_object.h"
 
 namespace clearway {
 
-// From `from` to `until` the object goes along a screw, or rests; beyond its horizon it may be
+// Until `until` the object goes along a screw, or rests; beyond its horizon it may be
 // anywhere in a ball that grows. What PredictPose says, cut where its form changes. A value.
 struct ObjectPiece {
-  Time from, until;
+  Time until;
   Pose T_W_O;        // at `start`
-  Time start;        // of the screw: at or before `from`
+  Time start;        // of the screw: at or before the time that was asked for
   Twist velocity_O;  // zero at rest
   bool beyond_horizon = false;
   double radius_m = 0, growth_mps = 0;  // of the ball, about T_W_O's origin: at `start`, and since

@@ -22,8 +22,8 @@ double Advance(double length_m, double from, double until, Gap&& gap_m) {
   for (int step = 0; step < kMostSteps; ++step) {
     if (share > until) return kNever;
     const double gap = gap_m(share);
-    if (gap <= kTouching_m) return share;
-    if (gap > length_m) return kNever;  // more than is left
+    if (!(gap > kTouching_m)) return share;  // not a number: as bad as none
+    if (gap > length_m) return kNever;       // more than is left
     share += gap / length_m;
   }
   return share > until ? kNever : share;
@@ -210,9 +210,10 @@ FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep) {
     const double way = sweep.way_F[axis];
     const double before = box.min[axis] - bounds_F.min[axis];
     const double behind = bounds_F.max[axis] - box.max[axis];
-    if (before < 0 || behind < 0) return {0, std::nullopt};
-    if (way > behind) share = std::min(share, behind / way);
-    if (-way > before) share = std::min(share, before / -way);
+    // What is not a number is out of bounds.
+    if (!(before >= 0 && behind >= 0)) return {0, std::nullopt};
+    if (!(way <= behind)) share = std::min(share, way > 0 ? behind / way : 0.0);
+    if (!(-way <= before)) share = std::min(share, way < 0 ? before / -way : 0.0);
   }
   return {share, std::nullopt};
 }

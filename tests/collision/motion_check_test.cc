@@ -216,6 +216,17 @@ TEST_F(MotionCheckAtAWall, DeviationsAndPaddingKeepAway) {
   EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kOccupied);
 }
 
+// Differences overflow, and what is no number must not pass for a gap.
+TEST_F(MotionCheckAtAWall, FarOffIsNotFree) {
+  for (const double far_m : {1e6, 1e154, 1e308}) {
+    motions_.T_W_L = {Pose::Translation(-far_m, far_m, 5), Pose::Translation(far_m, -far_m, 5)};
+    EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kOutOfBounds) << far_m;
+    motions_.T_W_L[0] = Pose::Translation(0, 0, 5);
+    EXPECT_NE(Ask()->answers[0].status, SpaceStatus::kFree) << far_m;
+    EXPECT_LT(Ask()->answers[0].free_until, motions_.times[1]) << far_m;
+  }
+}
+
 TEST_F(MotionCheckAtAWall, BadInputIsNamed) {
   const auto message = [this] { return std::string(Ask().status().message()); };
   const MotionBatch good = motions_;
