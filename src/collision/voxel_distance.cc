@@ -1,6 +1,7 @@
 #include "collision/voxel_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -9,7 +10,7 @@
 #include <tuple>
 
 #include "collision/closed_form.h"
-#include "collision/cube_contact.h"
+#include "collision/cube_bounds.h"
 #include "collision/voxel_search.h"
 
 namespace clearway {
@@ -92,33 +93,27 @@ class OccupiedSearch {
  public:
   OccupiedSearch(const VoxelGrid& grid, const PlacedShape& shape, double up_to_m)
       : grid_(grid),
+        half_voxel_m_(0.5 * grid.resolution_m()),
+        half_block_m_(kBlockSize * half_voxel_m_),
         shape_(shape),
-        bounds_(shape, 0),
+        bounds_(shape),
         nearest_m_(std::nextafter(up_to_m, kFar)),
-        at_most_m_(nearest_m_) {}
+        at_most_m_(nearest_m_) {
+    constexpr std::size_t kMostly = 128;  // there are not more
+    blocks_.reserve(kMostly);
+    voxels_.reserve(kMostly);
+  }
 
   void AddBlock(BlockKey key, const VoxelBlock& block) {
-    const double half_m = 0.5 * kBlockSize * grid_.resolution_m();
-    const Eigen::Vector3d corner = grid_.BoxOf(VoxelAt(key, 0)).min;
-    const double least_m = bounds_.DistanceTo(corner.array() + half_m, half_m).least_m;
-    if (least_m < at_most_m_) blocks_.push_back({least_m, key, &block});
+    blocks_.push_back({0, key, &block});
+    cubes_.Add(grid_.BoxOf(VoxelAt(key, 0)).min.array() + half_block_m_);
+    if (cubes_.count == BoundedCubes::kMost) BoundLast(half_block_m_, blocks_);
   }
 
   double Nearest_m() {
-    std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
-      return std::tie(a.least_m, a.key) < std::tie(b.least_m, b.key);
-    });
-    for (const Block& block : blocks_) {
-      if (block.least_m >= at_most_m_) break;
-      AddVoxels(block);
-    }
-    std::sort(voxels_.begin(), voxels_.end(), [](const Voxel& a, const Voxel& b) {
-      return std::tie(a.least_m, a.key) < std::tie(b.least_m, b.key);
-    });
-    for (const Voxel& voxel : voxels_) {
-      if (voxel.least_m >= std::min(nearest_m_, at_most_m_)) break;
-      nearest_m_ = std::min(nearest_m_, shape_.DistanceTo(grid_.BoxOf(voxel.key), nearest_m_));
-    }
+    BoundLast(half_block_m_, blocks_);
+    NearerFirst(blocks_, [&](const Block& block) { AddVoxels(block); });
+    NearerFirst(voxels_, [&](const Voxel& voxel) { Measure(voxel); });
     return nearest_m_;
   }
 
@@ -133,29 +128,60 @@ class OccupiedSearch {
     VoxelKey key;
   };
 
+  // Sets the bounds of the last ones, whose cubes are waiting.
+  template <class Bounded>
+  void BoundLast(double half_edge_m, std::vector<Bounded>& all) {
+    bounds_.Bound(half_edge_m, cubes_);
+    Bounded* last = all.data() + all.size() - cubes_.count;
+    for (std::size_t i = 0; i < cubes_.count; ++i) last[i].least_m = cubes_.least_m[i];
+    cubes_.count = 0;
+  }
+
+  // Calls visit for those that may hold or be the nearest voxel.
+  template <class Bounded, class Visit>
+  void NearerFirst(std::vector<Bounded>& all, Visit&& visit) {
+    const auto later = [](const Bounded& a, const Bounded& b) { return a.least_m > b.least_m; };
+    std::erase_if(all, [&](const Bounded& one) { return one.least_m >= at_most_m_; });
+    std::make_heap(all.begin(), all.end(), later);
+    for (auto end = all.end(); end != all.begin() && all.front().least_m < at_most_m_; --end) {
+      visit(all.front());
+      std::pop_heap(all.begin(), end, later);
+    }
+  }
+
   void AddVoxels(const Block& block) {
+    const std::size_t before = voxels_.size();
     block.block->occupied.ForEach([&](int index) {
       const VoxelKey key = VoxelAt(block.key, index);
-      const auto [least_m, most_m] =
-          bounds_.DistanceTo(grid_.CenterOf(key), 0.5 * grid_.resolution_m());
-      if (least_m >= at_most_m_) return;
-      if (most_m < kFar) {
-        at_most_m_ = std::min(at_most_m_, most_m);
-        voxels_.push_back({least_m, key});
-      } else {  // a shape of which bounds do not tell enough
-        nearest_m_ = std::min(nearest_m_, shape_.DistanceTo(grid_.BoxOf(key), nearest_m_));
-        at_most_m_ = std::min(at_most_m_, nearest_m_);
-      }
+      voxels_.push_back({0, key});
+      cubes_.Add(grid_.CenterOf(key));
     });
+    const auto first_most = cubes_.most_m.begin();
+    const auto end_most = first_most + static_cast<std::ptrdiff_t>(cubes_.count);
+    BoundLast(half_voxel_m_, voxels_);
+    const double most_m = *std::min_element(first_most, end_most);
+    at_most_m_ = std::min(at_most_m_, most_m);
+    if (most_m < kFar) return;
+    // Of such a shape bounds do not tell how near it is.
+    Measure(
+        *std::min_element(voxels_.begin() + static_cast<std::ptrdiff_t>(before), voxels_.end(),
+                          [](const Voxel& a, const Voxel& b) { return a.least_m < b.least_m; }));
+  }
+
+  void Measure(const Voxel& voxel) {
+    nearest_m_ = std::min(nearest_m_, shape_.DistanceTo(grid_.BoxOf(voxel.key), nearest_m_));
+    at_most_m_ = std::min(at_most_m_, nearest_m_);
   }
 
   const VoxelGrid& grid_;
+  const double half_voxel_m_, half_block_m_;
   const PlacedShape& shape_;
-  const CubeContact bounds_;
+  const CubeBounds bounds_;
   double nearest_m_;  // of the voxels whose distance is known; above up_to_m without one
   double at_most_m_;  // what the nearest one's distance cannot exceed
   std::vector<Block> blocks_;
   std::vector<Voxel> voxels_;
+  BoundedCubes cubes_;  // of the last blocks or voxels
 };
 
 }  // namespace
