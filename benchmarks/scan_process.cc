@@ -49,7 +49,9 @@ std::string TakeAddress(int file) {
 
 // Does what it is told: a number of scans, or scans until the next number.
 void Serve(Drive drive, int in, int out) {
-  auto connection = Connection::Open(TakeAddress(in));
+  const std::string address = TakeAddress(in);
+  if (address.empty()) return;  // there is no server
+  auto connection = Connection::Open(address);
   Must(connection.ok());
   FrameSender sender(*connection);
   while (const auto wanted = Take(in)) {

@@ -157,7 +157,9 @@ void AddQuestionFlags(CLI::App* command, Flags* flags) {
                    "Times come in steps of this many seconds; 0: any time")
       ->check(Between(0, 1e6))
       ->capture_default_str();
-  command->add_option("--seed", flags->seed, "Of the random questions")->capture_default_str();
+  command->add_option("--seed", flags->seed, "Of the random questions")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -72,6 +72,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"export", "--out", "map"}, "--format"},
       {{"load-prior", "map.ply"}, ".bt"},
       {{"bench", "--points", "0"}, "--points"},
+      {{"bench", "--seed", "-1"}, "--seed"},
+      {{"simulate", "street", "--out", "x", "--seed", "-1"}, "--seed"},
       {{"bench", "--points", "5", "--states", "5"}, "--states"},
       {{"bench", "--robot", "sphere:1"}, "--states"},
       {{"bench", "--points", "5", "--unknown", "free"}, "--states"},

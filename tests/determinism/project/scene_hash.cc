@@ -1,27 +1,56 @@
-// Prints the content of scenes, made of random frames with several parameters, as hashes.
+// Prints the content of scenes, made of random frames with several parameters, and what they answer
+// about points, as hashes.
+#include <xxhash.h>
+
+#include <bit>
 #include <iostream>
 
+#include "absl/strings/str_cat.h"
+#include "clearway/scene/occupancy.h"
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
+#include "support/random.h"
+
+namespace {
+
+using namespace clearway;
+
+std::uint64_t HashOfAnswers(const SceneSnapshot& scene) {
+  testing_support::Random random(5);
+  std::vector<Eigen::Vector3d> points_W;
+  std::vector<Time> times;
+  for (int i = 0; i < 20'000; ++i) {
+    points_W.push_back(random.Vector(9));
+    times.push_back(scene.stamp + FromSeconds(0.1 * random.Integer(0, 9)));
+  }
+  std::string text;
+  for (const PointOccupancy& answer : OccupancyOf(scene, points_W, times)) {
+    absl::StrAppend(&text, static_cast<int>(answer.status), " ", answer.object, " ",
+                    std::bit_cast<std::uint64_t>(answer.fused_log_odds.value_or(0)), "\n");
+  }
+  return XXH3_64bits(text.data(), text.size());
+}
+
+}  // namespace
 
 int main() {
   for (const bool variant : {false, true}) {
-    clearway::SceneParams params;
+    SceneParams params;
     params.rays = {.max_range_m = 6, .discretize = variant};
     params.clear_objects_by_rays = variant;
     params.rest_distance_m = variant ? 0.5 : 0;
     params.keep_distance_m = variant ? 3 : 0;
-    clearway::ThreadPool pool(2);
-    clearway::SceneBuilder builder(params, {}, pool);
-    clearway::testing_support::RandomFrames frames(variant);
+    ThreadPool pool(2);
+    SceneBuilder builder(params, {}, pool);
+    testing_support::RandomFrames frames(variant);
     for (int k = 0; k < 25; ++k) {
       if (const auto report = builder.Apply(frames.Next()); !report.ok()) {
         std::cerr << report.status() << "\n";
         return 1;
       }
     }
-    const clearway::ScenePtr scene = builder.Publish();
+    const ScenePtr scene = builder.Publish();
     std::cout << scene->static_map_W.observed_count() << " voxels, " << scene->objects.size()
-              << " objects: " << scene->Hash() << "\n";
+              << " objects: " << scene->Hash() << ", answers " << HashOfAnswers(*scene) << "\n";
   }
 }

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Prints the numbers of a summary.json that have a bar, and whether they meet it.
+
+usage: print_bars.py summary.json
+"""
+import json
+import sys
+
+AT_LEAST = {
+    "integrate_vs_octomap_x": 30,
+    "integrate_discrete_vs_octomap_x": 40,
+    "integrate_2threads_x": 1.4,
+    "integrate_fov_vs_octomap_x": 25,
+    "integrate_depth_vs_octomap_x": 30,
+    "memory_vs_octomap_x": 4,
+    "lookup_random_vs_octomap_x": 6,
+    "lookup_coherent_vs_octomap_x": 20,
+    "collide_box_vs_fcl_x": 12,
+    "collide_sphere_vs_fcl_x": 30,
+    "collide_capsule_vs_fcl_x": 30,
+    "collide_mesh_vs_fcl_x": 10,
+    "clearance_vs_fcl_x": 100,
+    "rpc_points_vs_echo_x": 0.25,
+    "mirror_vs_local_x": 0.9,
+}
+AT_MOST = {
+    "publish_ms": 1,
+    "lookup_fused_cost_x": 1.3,
+    "collide_culled_ns_per_object": 30,
+    "rpc_unary_vs_empty_x": 1.5,
+    "query_p99_while_writing_x": 1.3,
+    "delta_mb_per_scan": 3,
+}
+
+
+def row(name, summary, word, bar, meets):
+    if name not in summary:
+        return f"{name:<36} {'not measured':>12}"
+    verdict = "met" if meets(summary[name]) else "NOT MET"
+    return f"{name:<36} {summary[name]:>12.3f}   {word:<8} {bar:>5g}   {verdict}"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    with open(sys.argv[1], encoding="utf-8") as file:
+        summary = json.load(file)
+    for name, bar in AT_LEAST.items():
+        print(row(name, summary, "at least", bar, lambda value: value >= bar))
+    for name, bar in AT_MOST.items():
+        print(row(name, summary, "at most", bar, lambda value: value <= bar))
+
+
+main()
