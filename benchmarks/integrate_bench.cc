@@ -11,8 +11,11 @@
 #include <chrono>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "clearway/scene/scene_builder.h"
+#include "costs.h"
 #include "recorded_scans.h"
 #include "summary.h"
 
@@ -26,33 +29,46 @@ struct Input {
 };
 using InputPtr = std::shared_ptr<const Input>;
 
+const std::string kWhole = "whole";
+
 double MapsMb(const SceneSnapshot& scene) {
   std::size_t bytes = scene.static_map_W.blocks().MemoryBytes();
   for (const auto& object : scene.objects) bytes += object->map_O.blocks().MemoryBytes();
   return static_cast<double>(bytes) / 1e6;
 }
 
-// Returns the megabytes of the pruned tree.
-double Octomap(benchmark::State& state, const Input& input, bool discretize) {
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+std::vector<octomap::Pointcloud> CloudsOf(const Input& input) {
   std::vector<octomap::Pointcloud> clouds;
   for (const Frame& frame : input.frames) {
     octomap::Pointcloud& cloud = clouds.emplace_back();
     for (const Eigen::Vector3f& p : PointsInWorld(frame)) cloud.push_back(p.x(), p.y(), p.z());
   }
-  double memory_mb = 0;
-  for (auto _ : state) {
-    octomap::OcTree tree(input.resolution_m);
+  return clouds;
+}
+
+struct OctomapCost {
+  double ms = 0;         // all scans into a new tree, its end included
+  double memory_mb = 0;  // of the pruned tree
+};
+
+OctomapCost Octomap(const Input& input, const std::vector<octomap::Pointcloud>& clouds,
+                    bool discretize) {
+  OctomapCost cost;
+  auto tree = std::make_unique<octomap::OcTree>(input.resolution_m);
+  cost.ms = Took<std::milli>([&] {
     for (std::size_t i = 0; i < clouds.size(); ++i) {
       const Eigen::Vector3f origin = input.frames[i].T_W_S.translation.cast<float>();
-      tree.insertPointCloud(clouds[i], {origin.x(), origin.y(), origin.z()}, input.range_m, false,
-                            discretize);
+      tree->insertPointCloud(clouds[i], {origin.x(), origin.y(), origin.z()}, input.range_m, false,
+                             discretize);
     }
-    state.PauseTiming();
-    tree.prune();
-    memory_mb = static_cast<double>(tree.memoryUsage()) / 1e6;
-    state.ResumeTiming();
-  }
-  return memory_mb;
+  });
+  tree->prune();
+  cost.memory_mb = static_cast<double>(tree->memoryUsage()) / 1e6;
+  cost.ms += Took<std::milli>([&] { tree.reset(); });
+  return cost;
 }
 
 SceneParams ParamsFor(const Input& input, bool discretize) {
@@ -61,9 +77,6 @@ SceneParams ParamsFor(const Input& input, bool discretize) {
   params.rays = {input.range_m, discretize};
   return params;
 }
-
-using Clock = std::chrono::steady_clock;
-using Milliseconds = std::chrono::duration<double, std::milli>;
 
 // Takes frames and publishes a version after each, while a reader still holds the one before.
 class Integrator {
@@ -82,7 +95,6 @@ class Integrator {
   void Reset() {
     builder_.Reset();
     held_ = builder_.Publish();  // the end of the maps before, which no scan shall pay for
-    publishing_ = Milliseconds(0);
   }
 
   double publish_ms() const { return publishing_.count(); }
@@ -102,88 +114,71 @@ std::unique_ptr<Integrator> WarmIntegrator(const Input& input, bool discretize, 
   return integrator;
 }
 
-struct Cost {
-  double publish_ms = 0;  // the longest
-  double memory_mb = 0;   // of the last version's maps, all indexes included
-};
+// Milliseconds of all frames, the end of the maps before included: the median of a few rounds.
+double FramesMs(Integrator& integrator, const Input& input) {
+  std::array<double, 5> rounds_ms;
+  for (double& ms : rounds_ms) {
+    ms = Took<std::milli>([&] {
+      integrator.Reset();
+      for (const Frame& frame : input.frames) integrator.Take(frame);
+    });
+  }
+  std::nth_element(rounds_ms.begin(), rounds_ms.begin() + 2, rounds_ms.end());
+  return rounds_ms[2];
+}
 
-Cost Clearway(benchmark::State& state, const Input& input, bool discretize) {
-  const std::unique_ptr<Integrator> integrator = WarmIntegrator(input, discretize, 1);
-  double publish_ms = 0;
+// The same frames with OctoMap and with ours, in turn: what disturbs one disturbs the other.
+void AgainstOctomap(benchmark::State& state, const Input& input, const std::string& name,
+                    bool discretize) {
+  const std::vector<octomap::Pointcloud> clouds = CloudsOf(input);
+  const auto integrator = WarmIntegrator(input, discretize, 1);
   for (auto _ : state) {
-    integrator->Reset();
-    for (const Frame& frame : input.frames) integrator->Take(frame);
-    publish_ms = std::max(publish_ms, integrator->publish_ms());
+    const OctomapCost octomap = Octomap(input, clouds, discretize);
+    const double ours_ms = FramesMs(*integrator, input);
+    state.counters["octomap_" + name + "_ms"] = octomap.ms;
+    state.counters["clearway_" + name + "_ms"] = ours_ms;
+    const std::string ratio =
+        name == kWhole ? "integrate_vs_octomap_x" : "integrate_" + name + "_vs_octomap_x";
+    state.counters[ratio] = octomap.ms / ours_ms;
+    if (name != kWhole) continue;
+    state.counters["publish_ms"] = integrator->publish_ms();
+    state.counters["memory_vs_octomap_x"] = octomap.memory_mb / MapsMb(integrator->scene());
   }
-  return {publish_ms, MapsMb(integrator->scene())};
 }
 
-// Milliseconds a scan takes, over a few rounds.
-double ScanMs(Integrator& integrator, const Input& input) {
-  constexpr int kRounds = 5;
-  Milliseconds spent(0);
-  for (int round = 0; round < kRounds; ++round) {
-    integrator.Reset();
-    const auto begin = Clock::now();
-    for (const Frame& frame : input.frames) integrator.Take(frame);
-    spent += Clock::now() - begin;
-  }
-  return spent.count() / (kRounds * static_cast<double>(input.frames.size()));
-}
-
-// The same scans with one thread and with two, in turn: what disturbs one disturbs the other.
+// Likewise with one thread and with two.
 void OneAndTwoThreads(benchmark::State& state, const Input& input) {
   const auto one = WarmIntegrator(input, false, 1), two = WarmIntegrator(input, false, 2);
+  const auto scans = static_cast<double>(input.frames.size());
   for (auto _ : state) {
-    state.counters["scan_1thread_ms"] = ScanMs(*one, input);
-    state.counters["scan_2threads_ms"] = ScanMs(*two, input);
+    const double one_ms = FramesMs(*one, input), two_ms = FramesMs(*two, input);
+    state.counters["scan_1thread_ms"] = one_ms / scans;
+    state.counters["scan_2threads_ms"] = two_ms / scans;
+    state.counters["integrate_2threads_x"] = one_ms / two_ms;
     if (!SameContent(one->scene(), two->scene())) state.SkipWithError("the maps differ");
   }
-}
-
-// Of ours, which take a second or less and OctoMap minutes: one could meet a bad moment.
-constexpr int kIterations = 5;
-
-void AddPair(const std::string& name, const Effort& effort, const InputPtr& input,
-             bool discretize) {
-  Add("octomap_" + name, effort, [=](auto& state) { Octomap(state, *input, discretize); });
-  Add(
-      "clearway_" + name, effort, [=](auto& state) { Clearway(state, *input, discretize); },
-      kIterations);
 }
 
 void Register(Effort effort) {
   effort.repetitions = std::min(effort.repetitions, 5);  // OctoMap takes minutes for each
   const auto whole = std::make_shared<Input>(WholeScans(effort.quick ? 3 : 20), 0.1, 50);
-  Add("octomap_whole", effort,
-      [=](auto& state) { state.counters["octomap_memory_mb"] = Octomap(state, *whole, false); });
-  Add(
-      "clearway_whole", effort,
-      [=](auto& state) {
-        const Cost cost = Clearway(state, *whole, false);
-        state.counters["publish_ms"] = cost.publish_ms;
-        state.counters["memory_mb"] = cost.memory_mb;
-      },
-      kIterations);
-  Add("clearway_threads", effort, [=](auto& state) { OneAndTwoThreads(state, *whole); });
-  AddPair("discrete", effort, whole, true);
-  AddPair("fov", effort, std::make_shared<Input>(LabelledScans(effort.quick ? 5 : 20), 0.1, 50),
-          false);
-  AddPair("depth", effort, std::make_shared<Input>(DepthFrames(effort.quick ? 2 : 10), 0.05, -1),
-          false);
+  const auto fov = std::make_shared<Input>(LabelledScans(effort.quick ? 5 : 20), 0.1, 50);
+  const auto depth = std::make_shared<Input>(DepthFrames(effort.quick ? 2 : 10), 0.05, -1);
+  const auto against_octomap = [&](const std::string& name, const InputPtr& input,
+                                   bool discretize) {
+    Add(name, effort, [=](auto& state) { AgainstOctomap(state, *input, name, discretize); });
+  };
+  against_octomap(kWhole, whole, false);
+  against_octomap("discrete", whole, true);
+  against_octomap("fov", fov, false);
+  against_octomap("depth", depth, false);
+  Add("threads", effort, [=](auto& state) { OneAndTwoThreads(state, *whole); });
 }
 
 }  // namespace
 }  // namespace clearway::bench
 
 int main(int argc, char** argv) {
-  return clearway::bench::Main(
-      argc, argv, clearway::bench::Register,
-      {{"integrate_vs_octomap_x", "octomap_whole", "clearway_whole"},
-       {"integrate_discrete_vs_octomap_x", "octomap_discrete", "clearway_discrete"},
-       {"integrate_2threads_x", "scan_1thread_ms", "scan_2threads_ms"},
-       {"integrate_fov_vs_octomap_x", "octomap_fov", "clearway_fov"},
-       {"integrate_depth_vs_octomap_x", "octomap_depth", "clearway_depth"},
-       {"memory_vs_octomap_x", "octomap_memory_mb", "memory_mb"}},
-      clearway::bench::Order::kInTurns);
+  return clearway::bench::Main(argc, argv, clearway::bench::Register, {},
+                               clearway::bench::Order::kInTurns);
 }
