@@ -56,6 +56,14 @@ CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summa
   return command;
 }
 
+CLI::Validator NotNegative() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return text.starts_with('-') ? text + " is negative" : std::string();
+      },
+      "");
+}
+
 CLI::Validator Between(double low, double high) {
   const auto check = [low, high](const std::string& text) {
     const auto number = ParseFinite(text);

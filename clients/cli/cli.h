@@ -42,6 +42,8 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal);
 
 // Refuses what is no number from `low` to `high`, NaN above all. (CLI11's own ranges let NaN pass.)
 CLI::Validator Between(double low, double high);
+// Refuses what is negative, which would pass for a large number.
+CLI::Validator NotNegative();
 
 // Adds a flag whose text is read by `parse`; what that refuses is a usage error with its message.
 // `Target` is T or std::optional<T>.

@@ -158,7 +158,7 @@ void AddQuestionFlags(CLI::App* command, Flags* flags) {
       ->check(Between(0, 1e6))
       ->capture_default_str();
   command->add_option("--seed", flags->seed, "Of the random questions")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(NotNegative())
       ->capture_default_str();
 }
 

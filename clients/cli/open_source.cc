@@ -36,7 +36,7 @@ ObjectReport ObjectReportOf(const std::string& text) {
 void AddSimulationFlags(CLI::App* command, SourceFlags* flags) {
   const char* const group = "Simulator";
   command->add_option("--seed", flags->seed, "Seed of all noise")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(NotNegative())
       ->capture_default_str()
       ->group(group);
   command

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "clearway/geometry/hull.h"
+#include "collision/cube_bounds.h"
 #include "collision/cube_contact.h"
 #include "collision/test_meshes.h"
 #include "collision/voxel_distance.h"
@@ -187,6 +188,33 @@ TEST_F(VoxelContactTest, DistanceIsThatOfTheNearestVoxel) {
   }
   EXPECT_GT(near, 100);
   EXPECT_GT(beyond, 20);
+}
+
+// More of them than are bounded at once.
+TEST(VoxelDistance, IsFoundAmongManyBlocks) {
+  Random random(4);
+  VoxelMap map(0.1);
+  std::vector<VoxelKey> keys;
+  for (std::int32_t x = -5; x < 5; ++x) {
+    for (std::int32_t y = -5; y < 5; ++y) {
+      for (std::int32_t z = -5; z < 5; ++z) {
+        keys.push_back(VoxelAt({2 * x, 2 * y, 2 * z}, random.Integer(0, kVoxelsPerBlock - 1)));
+        map.Set(keys.back(), 100);
+      }
+    }
+  }
+  ASSERT_GT(keys.size(), BoundedCubes::kMost);
+  for (const Shape& shape : Shapes()) {
+    const ShapeGeometry geometry(shape);
+    for (int i = 0; i < 20; ++i) {
+      const PlacedShape placed(geometry, random.AnyPose(8));
+      double expected_m = std::numeric_limits<double>::infinity();
+      for (const VoxelKey& key : keys) {
+        expected_m = std::min(expected_m, placed.DistanceTo(map.grid().BoxOf(key), expected_m));
+      }
+      EXPECT_NEAR(DistanceToOccupied(map, placed, 100), expected_m, 1e-6);
+    }
+  }
 }
 
 }  // namespace
