@@ -22,6 +22,8 @@ class CheckHandlers final : public v1::CheckService::Service {
                              v1::RegisterRobotResponse* response) override;
   grpc::Status CheckStates(grpc::ServerContext* context, const v1::CheckStatesRequest* request,
                            v1::CheckStatesResponse* response) override;
+  grpc::Status CheckMotions(grpc::ServerContext* context, const v1::CheckMotionsRequest* request,
+                            v1::CheckMotionsResponse* response) override;
 
  private:
   ServerCore& core_;

@@ -8,6 +8,7 @@
 #include "clearway/client/scene_client.h"
 #include "client/call.h"
 #include "wire/check_wire.h"
+#include "wire/motion_wire.h"
 #include "wire/robot_wire.h"
 
 namespace clearway {
@@ -63,17 +64,37 @@ struct RemoteChecker::Impl {
     request.set_robot_id(robot_id);
     Write(options, request.mutable_options());
     WriteStates(states, robot.links.size(), begin, end, &request);
-    const auto call = [&] {
-      return Call(connection->options(), *connection->impl().check,
-                  &v1::CheckService::Stub::CheckStates, request);
-    };
-    auto response = call();
-    if (absl::IsNotFound(response.status())) {  // the server has forgotten the robot
-      if (auto again = Register(*connection, robot_proto); !again.ok()) return again.status();
-      response = call();
-    }
+    auto response = Ask(&v1::CheckService::Stub::CheckStates, request);
     if (!response.ok()) return response.status();
     return ReadCheckReply(*response, end - begin, options);
+  }
+
+  // Motions [begin, end), the first of which begins at `knot`.
+  absl::StatusOr<MotionReply> CheckPart(const MotionBatch& motions, const MotionOptions& options,
+                                        std::size_t begin, std::size_t end, std::size_t knot) {
+    v1::CheckMotionsRequest request;
+    request.mutable_selector()->set_lease_id(lease.id);
+    request.set_robot_id(robot_id);
+    Write(options, &request);
+    WriteMotions(motions, robot.links.size(), begin, end, knot, &request);
+    auto response = Ask(&v1::CheckService::Stub::CheckMotions, request);
+    if (!response.ok()) return response.status();
+    return ReadMotionReply(*response, end - begin);
+  }
+
+  // Of a server that may have forgotten the robot.
+  template <class Request, class Response>
+  absl::StatusOr<Response> Ask(grpc::Status (v1::CheckService::Stub::*method)(grpc::ClientContext*,
+                                                                              const Request&,
+                                                                              Response*),
+                               const Request& request) {
+    const auto call = [&] {
+      return Call(connection->options(), *connection->impl().check, method, request);
+    };
+    auto response = call();
+    if (!absl::IsNotFound(response.status())) return response;
+    if (auto again = Register(*connection, robot_proto); !again.ok()) return again.status();
+    return call();
   }
 };
 
@@ -128,6 +149,32 @@ absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
     reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
     begin = end;
   } while (begin < states.times.size());
+  return reply;
+}
+
+absl::StatusOr<MotionReply> RemoteChecker::CheckMotions(const MotionBatch& motions,
+                                                        const MotionOptions& options) const {
+  if (absl::Status status = Validate(motions, robot()); !status.ok()) return status;
+  const std::size_t most = states_per_request(), count = motions.knot_counts.size();
+  MotionReply reply{version(), stamp(), {}, {}};
+  std::size_t begin = 0, knot = 0;
+  do {  // an empty batch is asked too: its options may be wrong
+    std::size_t end = begin, knots = 0;
+    while (end < count && knots + motions.knot_counts[end] <= most) {
+      knots += motions.knot_counts[end++];
+    }
+    if (end == begin && count > 0) {
+      return absl::ResourceExhaustedError(
+          absl::StrCat("knot_counts[", begin, "]: ", motions.knot_counts[begin],
+                       " knots; the server takes at most ", most, " at once"));
+    }
+    auto part = impl_->CheckPart(motions, options, begin, end, knot);
+    if (!part.ok()) return part.status();
+    reply.horizon = part->horizon;
+    reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
+    begin = end;
+    knot += knots;
+  } while (begin < count);
   return reply;
 }
 

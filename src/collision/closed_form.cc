@@ -121,6 +121,23 @@ Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Cylinder& cylinder)
   return {p.x() * inward, p.y() * inward, std::clamp(p.z(), -half_m, half_m)};
 }
 
+double DepthIn(const Shape& shape, const Eigen::Vector3d& p) {
+  return std::visit(Overloaded{
+                        [&](const Sphere& s) { return s.radius_m - p.norm(); },
+                        [&](const Box& b) { return (0.5 * b.size_m - p.cwiseAbs()).minCoeff(); },
+                        [&](const Capsule& c) {
+                          const double above_m = std::max(0.0, std::abs(p.z()) - c.length_m / 2);
+                          return c.radius_m - std::hypot(p.x(), p.y(), above_m);
+                        },
+                        [&](const Cylinder& c) {
+                          return std::min(c.radius_m - std::hypot(p.x(), p.y()),
+                                          c.length_m / 2 - std::abs(p.z()));
+                        },
+                        [](const auto&) { return -1.0; },
+                    },
+                    shape);
+}
+
 double PointShapeDistance(const Eigen::Vector3d& p, const Shape& shape) {
   return std::visit(Overloaded{
                         [&](const Sphere& s) { return std::max(0.0, p.norm() - s.radius_m); },

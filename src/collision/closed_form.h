@@ -24,6 +24,10 @@ double PointTriangleDistance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
 // The point of the solid cylinder nearest to p, p itself inside.
 Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p_G, const Cylinder& cylinder);
 
+// How deep a point lies in a sphere, box, capsule or cylinder: a ball round it of this radius is
+// inside too. Negative outside; of other shapes always.
+double DepthIn(const Shape& shape, const Eigen::Vector3d& p_G);
+
 // From a point to a shape, both in G; shapes are solid in the sense of Contains.
 double PointShapeDistance(const Eigen::Vector3d& p_G, const Shape& shape);
 

@@ -1,8 +1,11 @@
 #include "collision/motion_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "collision/unknown_share.h"
 
 namespace clearway {
 namespace {
@@ -30,6 +33,7 @@ MotionCheck::MotionCheck(const MotionContext& context, const RobotGeometry& robo
   const double limit_m = scene_.static_map_W.grid().limit_m();
   bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
   bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
+  if (context.options.world_at) return;
   for (const auto& object : scene_.objects) {
     const double spin_radps = object->velocity_O ? object->velocity_O->angular.norm() : 0;
     fastest_object_mps_ =
@@ -44,27 +48,40 @@ void MotionCheck::Answer(std::span<const Time> times, const Pose* T_W_L, const d
   answer = {};
   answer.free_until = times.front();
   for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-    Leg leg{times[k], times[k + 1], {}, nullptr};
-    if (deviations_m != nullptr) leg.deviations_m = deviations_m + k * links;
-    const Pose* const from = T_W_L + k * links;
-    for (std::size_t link = 0; link < links; ++link) {
-      leg.links.emplace_back(from[link], from[links + link], ToSeconds(leg.until - leg.from));
-    }
-    if (!Prove(leg, answer)) return;
+    SetLeg({times[k], times[k + 1]}, T_W_L + k * links, T_W_L + (k + 1) * links,
+           deviations_m == nullptr ? nullptr : deviations_m + k * links);
+    if (!Prove(answer)) return;
   }
   answer.status = SpaceStatus::kFree;
 }
 
+void MotionCheck::SetLeg(const TimeSpan& span, const Pose* from_T_W_L, const Pose* until_T_W_L,
+                         const double* deviations_m) {
+  const std::size_t links = robot_.links().size();
+  leg_.span = span;
+  leg_.links.clear();
+  leg_.parts.clear();
+  for (std::size_t link = 0; link < links; ++link) {
+    leg_.links.emplace_back(from_T_W_L[link], until_T_W_L[link], span.seconds());
+  }
+  for (std::size_t link = 0; link < links; ++link) {
+    const double deviation_m = deviations_m == nullptr ? 0 : deviations_m[link];
+    for (const RobotGeometry::Part& part : robot_.links()[link]) {
+      leg_.parts.emplace_back(static_cast<int>(link), leg_.links[link], span, part, deviation_m);
+    }
+  }
+}
+
 // Where a span's sweeps stop, contact may be near: a look ahead tells, and then no span need go
 // beyond it.
-bool MotionCheck::Prove(const Leg& leg, MotionAnswer& answer) {
-  const Duration longest = LongestSpan(leg), shortest = ShortestSpan(leg);
+bool MotionCheck::Prove(MotionAnswer& answer) {
+  const Duration longest = LongestSpan(), shortest = ShortestSpan();
   const Duration least = std::max(Duration(1), shortest / kFiner);
   Duration length = longest;
-  Time end = leg.until;  // or the earliest contact that is known
+  Time end = leg_.span.until;  // or the earliest contact that is known
   for (int spans = 0; answer.free_until < end && spans < kMostSpans; ++spans) {
     const TimeSpan span{answer.free_until, std::min(end, answer.free_until + length)};
-    const Stop stop = FirstStop(leg, span);
+    const Stop stop = FirstStop(span);
     if (context_.check.cancelled()) return false;
     if (stop.share == kNever) {
       answer.free_until = span.until;
@@ -72,11 +89,14 @@ bool MotionCheck::Prove(const Leg& leg, MotionAnswer& answer) {
       continue;
     }
     answer.free_until = span.At(stop.share);
-    const double shorts = 1 + 2 * stop.slack_m / context_.contact_resolution_m;
+    const double shorts = 1 + 2 * stop.slack_m / context_.options.contact_resolution_m;
     const Duration ahead = Seconds(shorts * ToSeconds(shortest));
-    for (const Time t : {answer.free_until, std::min(end, answer.free_until + ahead)}) {
+    std::array<Time, 3> looks{answer.free_until, std::min(end, answer.free_until + ahead)};
+    // Too much unknown space may be in the robot for a moment alone.
+    looks[2] = options_.unknown == UnknownPolicy::kTolerated ? span.until : looks[1];
+    for (const Time t : looks) {
       if (answer.witness && t == end) continue;
-      if (!InContact(leg, t, answer)) continue;
+      if (!InContact(t, answer)) continue;
       end = t;
       break;
     }
@@ -88,50 +108,35 @@ bool MotionCheck::Prove(const Leg& leg, MotionAnswer& answer) {
   }
   if (answer.witness) {
     answer.witness->from = answer.free_until;
-    answer.witness->voxel = TouchedVoxel(end, StateAt(leg, end));
+    answer.witness->voxel = TouchedVoxel(end, StateAt(end));
   }
-  return !answer.witness && answer.free_until == leg.until;
+  return !answer.witness && answer.free_until == leg_.span.until;
 }
 
-Duration MotionCheck::LongestSpan(const Leg& leg) const {
+Duration MotionCheck::LongestSpan() const {
   double seconds = std::numeric_limits<double>::infinity();
-  for (std::size_t link = 0; link < leg.links.size(); ++link) {
-    const LinkMotion& motion = leg.links[link];
-    for (const RobotGeometry::Part& part : robot_.links()[link]) {
-      const Aabb& box_G = part.geometry.box_G();
-      const Eigen::Vector3d center_L = part.T_L_G ? *part.T_L_G * box_G.Center() : box_G.Center();
-      const double turning_mps = 0.5 * motion.spin_radps() * (0.5 * box_G.Size().norm());
-      const double center_mps = motion.speed_mps() + motion.spin_radps() * center_L.norm();
-      seconds = std::min({seconds, kLooseBy_m / turning_mps, kLongest_m / center_mps});
-    }
+  for (const MovingPart& part : leg_.parts) {
+    seconds =
+        std::min({seconds, 2 * kLooseBy_m / part.turning_mps(), kLongest_m / part.center_mps()});
   }
   return Seconds(seconds);
 }
 
-Duration MotionCheck::ShortestSpan(const Leg& leg) const {
+Duration MotionCheck::ShortestSpan() const {
   double fastest_mps = 0;
-  for (std::size_t link = 0; link < leg.links.size(); ++link) {
-    for (const RobotGeometry::Part& part : robot_.links()[link]) {
-      const Aabb& box_G = part.geometry.box_G();
-      const double reach_m = 0.5 * box_G.Size().norm() + box_G.Center().norm() +
-                             (part.T_L_G ? part.T_L_G->translation.norm() : 0);
-      const LinkMotion& motion = leg.links[link];
-      fastest_mps = std::max(fastest_mps, motion.speed_mps() + motion.spin_radps() * reach_m);
-    }
+  for (const MovingPart& part : leg_.parts) {
+    fastest_mps = std::max(fastest_mps, part.center_mps() + part.turning_mps());
   }
-  return Seconds(context_.contact_resolution_m / (fastest_mps + fastest_object_mps_));
+  return Seconds(context_.options.contact_resolution_m / (fastest_mps + fastest_object_mps_));
 }
 
-MotionCheck::Stop MotionCheck::FirstStop(const Leg& leg, const TimeSpan& span) const {
+MotionCheck::Stop MotionCheck::FirstStop(const TimeSpan& span) const {
   Stop stop;
-  for (int link = 0; link < static_cast<int>(leg.links.size()); ++link) {
-    for (const RobotGeometry::Part& part : robot_.links()[link]) {
-      const MovingPart moving(link, leg.links[link], {leg.from, leg.until}, part,
-                              leg.DeviationOf(link));
-      StopAtStatic(moving, span, stop);
-      if (!scene_.objects.empty()) StopAtObjects(moving, span, stop);
-    }
+  for (const MovingPart& part : leg_.parts) {
+    StopAtStatic(part, span, stop);
+    if (!scene_.objects.empty()) StopAtObjects(part, span, stop);
   }
+  if (options_.unknown == UnknownPolicy::kTolerated) StopAtUnknownShare(span, stop);
   return stop;
 }
 
@@ -147,21 +152,50 @@ void MotionCheck::StopAtStatic(const MovingPart& part, const TimeSpan& span, Sto
     }
     stop.Add(TouchOccupied(map_W, sweep, stop.until()).share, slack_m);
   }
-  if (options_.unknown == UnknownPolicy::kFree) return;
-  const bool padded = options_.unknown == UnknownPolicy::kBlocked;
-  stop.Add(TouchUnobserved(map_W, options_.known_free_W, padded ? sweep : bare, stop.until(),
-                           context_.check.cancelled)
-               .share,
-           slack_m);
+  if (options_.unknown != UnknownPolicy::kBlocked) return;
+  stop.Add(
+      TouchUnobserved(map_W, options_.known_free_W, sweep, stop.until(), context_.check.cancelled)
+          .share,
+      slack_m);
+}
+
+// From where unknown space is touched first, unless the robot never lies in more of it than is
+// tolerated.
+void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) const {
+  const VoxelMap& map_W = scene_.static_map_W;
+  Stop touched = stop;
+  std::vector<LooseShape> shapes;
+  for (const MovingPart& part : leg_.parts) {
+    const auto [bare, slack_m] = part.InWorld(span, 0);
+    touched.Add(TouchUnobserved(map_W, options_.known_free_W, bare, touched.until(),
+                                context_.check.cancelled)
+                    .share,
+                slack_m);
+    const Eigen::Vector3d half_way = 0.5 * bare.way_F;
+    shapes.push_back({bare.shape_F.In({Eigen::Quaterniond::Identity(), half_way}),
+                      bare.margin_m + half_way.norm()});
+  }
+  if (touched.share >= stop.share) return;
+  if (MostUnknownShareOf(map_W, options_.known_free_W, shapes, context_.check.cancelled) >
+      options_.max_unknown_fraction) {
+    stop = touched;
+  }
 }
 
 void MotionCheck::StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const {
   const Aabb box_W = part.InWorld(span, options_.padding_m).sweep.Box();
-  context_.index.ForEachNear(box_W, span.from, span.until, [&](std::size_t i) {
-    const MovingObject& object = *scene_.objects[i];
-    if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
-    StopAtObject(part, span, i, stop);
-  });
+  context_.index.ForEachNear(box_W, WorldTime(span.from), WorldTime(span.until),
+                             [&](std::size_t i) {
+                               const MovingObject& object = *scene_.objects[i];
+                               if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
+                               StopAtObject(part, span, i, stop);
+                             });
+}
+
+ObjectPiece MotionCheck::PieceOf(const MovingObject& object, Time from, Time until) const {
+  const Duration horizon = scene_.params.horizon;
+  const std::optional<Time>& at = context_.options.world_at;
+  return at ? HeldAt(object, *at, until, horizon) : PieceFrom(object, from, until, horizon);
 }
 
 void MotionCheck::StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t i,
@@ -169,14 +203,15 @@ void MotionCheck::StopAtObject(const MovingPart& part, const TimeSpan& span, std
   const MovingObject& object = *scene_.objects[i];
   const auto all = static_cast<double>((span.until - span.from).count());
   for (Time from = span.from; from < span.until;) {
-    const ObjectPiece piece = PieceFrom(object, from, span.until, scene_.params.horizon);
+    const ObjectPiece piece = PieceOf(object, from, span.until);
     const TimeSpan during{from, piece.until};
     const double begins = static_cast<double>((from - span.from).count()) / all;
     const double lasts = static_cast<double>((piece.until - from).count()) / all;
     from = piece.until;
     const double until = std::min(1.0, (stop.until() - begins) / lasts);
     if (until < 0) return;
-    const double margin_m = options_.padding_m + InflationOf(object, during.until, options_);
+    const double margin_m =
+        options_.padding_m + InflationOf(object, WorldTime(during.until), options_);
     if (piece.beyond_horizon) {
       const auto [sweep, slack_m] = part.InWorld(during, margin_m);
       const FirstTouch touch =
@@ -202,17 +237,17 @@ bool MotionCheck::Ignored(ObjectId object) const {
   return std::find(ignored.begin(), ignored.end(), object) != ignored.end();
 }
 
-StateAnswer MotionCheck::StateAt(const Leg& leg, Time t) {
-  const double fraction = ToSeconds(t - leg.from) / ToSeconds(leg.until - leg.from);
+StateAnswer MotionCheck::StateAt(Time t) {
+  const double fraction = ToSeconds(t - leg_.span.from) / leg_.span.seconds();
   T_W_L_.clear();
-  for (const LinkMotion& motion : leg.links) T_W_L_.push_back(motion.At(fraction));
+  for (const LinkMotion& motion : leg_.links) T_W_L_.push_back(motion.At(fraction));
   StateAnswer answer;
-  states_.Answer(t, T_W_L_.data(), answer);
+  states_.Answer(WorldTime(t), T_W_L_.data(), answer);
   return answer;
 }
 
-bool MotionCheck::InContact(const Leg& leg, Time t, MotionAnswer& answer) {
-  const StateAnswer state = StateAt(leg, t);
+bool MotionCheck::InContact(Time t, MotionAnswer& answer) {
+  const StateAnswer state = StateAt(t);
   if (state.status == SpaceStatus::kFree) return false;
   answer.status = state.status;
   answer.witness = MotionWitness{t, t, state.link, state.object, std::nullopt};
@@ -227,10 +262,10 @@ std::optional<VoxelKey> MotionCheck::TouchedVoxel(Time t, const StateAnswer& sta
     Sweep here{PlacedShape(geometry, T_W_G), Eigen::Vector3d::Zero(), options_.padding_m};
     FirstTouch touch;
     if (object != nullptr) {
-      const PredictedPose at = PredictPose(*object, t, scene_.params.horizon);
+      const PredictedPose at = PredictPose(*object, WorldTime(t), scene_.params.horizon);
       if (at.beyond_horizon_radius_m || scene_.params.solid != SolidMode::kVoxels) continue;
       here.shape_F = here.shape_F.In(Inverse(at.T_W_O));
-      here.margin_m += InflationOf(*object, t, options_);
+      here.margin_m += InflationOf(*object, WorldTime(t), options_);
       touch = TouchOccupied(object->map_O, here, 1);
     } else if (state.status == SpaceStatus::kOccupied) {
       touch = TouchOccupied(scene_.static_map_W, here, 1);

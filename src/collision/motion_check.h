@@ -20,7 +20,7 @@ struct MotionContext {
   const CheckContext& check;  // for states
   const ObjectHulls& hulls;
   const ObjectIndex& index;  // for all times of the batch
-  double contact_resolution_m;
+  const MotionOptions& options;
 };
 
 // Proves motions free, or finds their first contact, from the first knot on by spans of time: what
@@ -37,11 +37,9 @@ class MotionCheck {
  private:
   // From one knot to the next.
   struct Leg {
-    Time from, until;
+    TimeSpan span;
     std::vector<LinkMotion> links;
-    const double* deviations_m;  // of the links; null: none
-
-    double DeviationOf(int link) const { return deviations_m == nullptr ? 0 : deviations_m[link]; }
+    std::vector<MovingPart> parts;  // of all links; refer to them
   };
   // What a span's sweeps touch first.
   struct Stop {
@@ -53,21 +51,28 @@ class MotionCheck {
     double until() const { return std::min(share, 1.0); }
   };
 
+  // From these poses of the links to those. deviations_m: null, or one for each link.
+  void SetLeg(const TimeSpan& span, const Pose* from_T_W_L, const Pose* until_T_W_L,
+              const double* deviations_m);
   // Whether the leg is free; else the answer is complete.
-  bool Prove(const Leg& leg, MotionAnswer& answer);
-  Duration LongestSpan(const Leg& leg) const;
-  Duration ShortestSpan(const Leg& leg) const;
-  Stop FirstStop(const Leg& leg, const TimeSpan& span) const;
+  bool Prove(MotionAnswer& answer);
+  Duration LongestSpan() const;
+  Duration ShortestSpan() const;
+  Stop FirstStop(const TimeSpan& span) const;
   void StopAtStatic(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  void StopAtUnknownShare(const TimeSpan& span, Stop& stop) const;
   void StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  ObjectPiece PieceOf(const MovingObject& object, Time from, Time until) const;
   void StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t object,
                     Stop& stop) const;
+  // When the world is as it is at `t`.
+  Time WorldTime(Time t) const { return context_.options.world_at.value_or(t); }
   bool Allowed(int link, ObjectId object) const;
   bool Ignored(ObjectId object) const;
 
-  StateAnswer StateAt(const Leg& leg, Time t);
+  StateAnswer StateAt(Time t);
   // Whether the state at `t` is not free; then the answer gets its status and its contact.
-  bool InContact(const Leg& leg, Time t, MotionAnswer& answer);
+  bool InContact(Time t, MotionAnswer& answer);
   // Of what the state last asked about touches.
   std::optional<VoxelKey> TouchedVoxel(Time t, const StateAnswer& state) const;
 
@@ -78,6 +83,7 @@ class MotionCheck {
   StateCheck states_;
   Aabb bounds_W_;
   double fastest_object_mps_ = 0;  // of any of its points
+  Leg leg_;                        // at hand
   std::vector<Pose> T_W_L_;        // of StateAt
 };
 

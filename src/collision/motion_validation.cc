@@ -66,6 +66,9 @@ absl::Status Validate(const MotionOptions& options, const Robot& robot) {
   if (options.check.with_unknown_fraction) {
     return Invalid("with_unknown_fraction", "is not answered for motions");
   }
+  if (options.world_at) {
+    if (auto status = ValidateTime("world_at_ns", *options.world_at); !status.ok()) return status;
+  }
   constexpr double kLeast_m = 1e-4, kMost_m = 10;
   const double resolution_m = options.contact_resolution_m;
   if (resolution_m >= kLeast_m && resolution_m <= kMost_m) return absl::OkStatus();

@@ -19,9 +19,9 @@ double TurningRadius(const ShapeGeometry& geometry) {
 MovingPart::MovingPart(int link, const LinkMotion& motion, const TimeSpan& leg,
                        const RobotGeometry::Part& part, double deviation_m)
     : link_(link),
-      motion_(motion),
+      motion_(&motion),
       leg_(leg),
-      geometry_(part.geometry),
+      geometry_(&part.geometry),
       T_L_G_(part.T_L_G.value_or(Pose{})),
       center_L_(T_L_G_ * part.geometry.box_G().Center()),
       radius_m_(TurningRadius(part.geometry)),
@@ -33,8 +33,8 @@ LooseSweep MovingPart::SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vecto
                                const Eigen::Quaterniond& R_F_L, double margin_m,
                                double slack_m) const {
   const Eigen::Quaterniond R_F_G = R_F_L * T_L_G_.rotation;
-  const Eigen::Vector3d origin_F = from_F - R_F_G * geometry_.box_G().Center();
-  return {{PlacedShape(geometry_, {R_F_G, origin_F}), until_F - from_F,
+  const Eigen::Vector3d origin_F = from_F - R_F_G * geometry_->box_G().Center();
+  return {{PlacedShape(*geometry_, {R_F_G, origin_F}), until_F - from_F,
            margin_m + deviation_m_ + slack_m, 0.25 * slack_m},
           slack_m};
 }
@@ -42,7 +42,7 @@ LooseSweep MovingPart::SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vecto
 LooseSweep MovingPart::InWorld(const TimeSpan& span, double margin_m) const {
   const double seconds = span.seconds();
   const double strays_m = center_mps2_ * seconds * seconds / 8;
-  const double turns_m = radius_m_ * motion_.spin_radps() * seconds / 2;
+  const double turns_m = radius_m_ * motion_->spin_radps() * seconds / 2;
   return SweepOf(LinkAt(span.from) * center_L_, LinkAt(span.until) * center_L_,
                  LinkAt(span.Middle()).rotation, margin_m, strays_m + turns_m);
 }
@@ -63,7 +63,7 @@ LooseSweep MovingPart::InObject(const ObjectPiece& object, const TimeSpan& span,
   const double acceleration = center_mps2_ + velocity_O.angular.cross(velocity_O.linear).norm() +
                               2 * spin_radps * apart_mps + spin_radps * spin_radps * apart_m;
   const double strays_m = acceleration * seconds * seconds / 8;
-  const double turns_m = radius_m_ * (motion_.spin_radps() + spin_radps) * seconds / 2;
+  const double turns_m = radius_m_ * (motion_->spin_radps() + spin_radps) * seconds / 2;
   const Eigen::Quaterniond R_O_W = object.At(span.Middle()).rotation.conjugate();
   return SweepOf(from_O, until_O, R_O_W * LinkAt(span.Middle()).rotation, margin_m,
                  strays_m + turns_m);

@@ -40,6 +40,9 @@ class MovingPart {
              const RobotGeometry::Part& part, double deviation_m);
 
   int link() const { return link_; }
+  double center_mps() const { return center_mps_; }  // at most
+  // Of any point, seen from the centre: at most.
+  double turning_mps() const { return radius_m_ * motion_->spin_radps(); }
 
   // In W, for a span of the leg; margin_m is what is asked for.
   LooseSweep InWorld(const TimeSpan& span, double margin_m) const;
@@ -47,14 +50,14 @@ class MovingPart {
   LooseSweep InObject(const ObjectPiece& object, const TimeSpan& span, double margin_m) const;
 
  private:
-  Pose LinkAt(Time t) const { return motion_.At(ToSeconds(t - leg_.from) / leg_.seconds()); }
+  Pose LinkAt(Time t) const { return motion_->At(ToSeconds(t - leg_.from) / leg_.seconds()); }
   LooseSweep SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vector3d& until_F,
                      const Eigen::Quaterniond& R_F_L, double margin_m, double slack_m) const;
 
   int link_;
-  const LinkMotion& motion_;
+  const LinkMotion* motion_;
   TimeSpan leg_;
-  const ShapeGeometry& geometry_;
+  const ShapeGeometry* geometry_;
   Pose T_L_G_;
   Eigen::Vector3d center_L_;
   double radius_m_;  // how far turning about the centre moves a point, at most, a radian

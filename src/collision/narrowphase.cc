@@ -82,6 +82,25 @@ bool PlacedShape::Contains(const Eigen::Vector3d& p_F) const {
   return mesh != nullptr ? mesh->Contains(p_G) : clearway::Contains(geometry_->shape(), p_G);
 }
 
+// A convex shape that has the corners of an octahedron has the ball in it.
+bool PlacedShape::Holds(const Eigen::Vector3d& center_F, double radius_m) const {
+  const Eigen::Vector3d center_G = ToG(center_F);
+  const Shape& shape = geometry_->shape();
+  if (const PreparedMesh* mesh = geometry_->prepared()) {
+    const DistanceGrid::Surroundings around = mesh->Around(center_G);
+    return around.inside && around.same_m > radius_m;
+  }
+  if (!std::holds_alternative<ConvexPolytope>(shape)) return DepthIn(shape, center_G) >= radius_m;
+  constexpr double kToCorner = 1.7320508075688774;
+  for (const double corner_m : {-kToCorner * radius_m, kToCorner * radius_m}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d corner_G = center_G + corner_m * Eigen::Vector3d::Unit(axis);
+      if (!clearway::Contains(shape, corner_G)) return false;
+    }
+  }
+  return true;
+}
+
 std::optional<Eigen::Vector3d> PlacedShape::FromNearestPoint(const Eigen::Vector3d& p_F) const {
   const auto* cylinder = std::get_if<Cylinder>(&geometry_->shape());
   if (cylinder == nullptr) return std::nullopt;

@@ -71,6 +71,8 @@ class PlacedShape {
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
+  // Whether all of the ball lies in the shape. False is not certain.
+  bool Holds(const Eigen::Vector3d& center_F, double radius_m) const;
   // The same set of points, if the shape is of that kind.
   std::optional<RoundedLine> AsRoundedLine() const;
   std::optional<TurnedBox> AsBox() const;
@@ -83,7 +85,7 @@ class PlacedShape {
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
-  // `hull` is that of a ConvexPolytope, at T_F_H.
+  // `hull` is that of a ConvexPolytope, at T_F_H. Above up_to_m it is still at most the distance.
   double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
   double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
 

@@ -51,4 +51,12 @@ ObjectPiece PieceFrom(const MovingObject& object, Time t, Time last, Duration ho
   return piece;
 }
 
+ObjectPiece HeldAt(const MovingObject& object, Time t, Time last, Duration horizon) {
+  const PredictedPose at = PredictPose(object, t, horizon);
+  ObjectPiece piece = Resting(at.T_W_O, t, last);
+  piece.beyond_horizon = at.beyond_horizon_radius_m.has_value();
+  piece.radius_m = at.beyond_horizon_radius_m.value_or(0);
+  return piece;
+}
+
 }  // namespace clearway

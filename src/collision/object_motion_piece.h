@@ -22,5 +22,7 @@ struct ObjectPiece {
 
 // The piece that holds at `t` and after it, up to `last` at most.
 ObjectPiece PieceFrom(const MovingObject& object, Time t, Time last, Duration horizon);
+// The object as it is at `t`, held there until `last`.
+ObjectPiece HeldAt(const MovingObject& object, Time t, Time last, Duration horizon);
 
 }  // namespace clearway

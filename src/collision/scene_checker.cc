@@ -49,6 +49,11 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   return reply;
 }
 
+absl::StatusOr<MotionReply> SceneChecker::CheckMotions(const MotionBatch& motions,
+                                                       const MotionOptions& options) const {
+  return CheckMotions(motions, options, [] { return false; });
+}
+
 absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
     const MotionBatch& motions, const MotionOptions& options,
     const std::function<bool()>& cancelled) const {
@@ -61,9 +66,10 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
                                                             options.check.allowed_contacts.end());
   const auto [first, last] = std::minmax_element(motions.times.begin(), motions.times.end());
-  ObjectPlacer objects(scene, impl_->hulls, options.check, *first, *last);
+  ObjectPlacer objects(scene, impl_->hulls, options.check, options.world_at.value_or(*first),
+                       options.world_at.value_or(*last));
   const CheckContext states{scene, options.check, allowed_contacts, objects, cancelled};
-  const MotionContext context{states, impl_->hulls, objects.index(), options.contact_resolution_m};
+  const MotionContext context{states, impl_->hulls, objects.index(), options};
   MotionCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
   std::size_t knot = 0;

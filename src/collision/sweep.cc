@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kTouching_m = 1e-7;
 constexpr int kMostSteps = 24;
+// Of gaps above this part of the way it is enough to know that they are: steps of that part do.
+constexpr double kFarShare = 0.25, kLeastFar_m = 0.01;
 
 // Goes on by what is certainly free until gap_m(share), at most the gap at that share of the way,
 // is none. (Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996: conservative
@@ -173,32 +175,37 @@ FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known
 }
 
 FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
-  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  const double length_m = sweep.way_F.norm();
+  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
   return {Advance(length_m, 0, until,
                   [&](double share) {
                     const Aabb moved = Moved(box_F, -share * sweep.way_F);
-                    return sweep.shape_F.DistanceTo(moved, up_to_m) - sweep.margin_m;
+                    return std::min(far_m, sweep.shape_F.DistanceTo(moved, far_m)) - sweep.margin_m;
                   }),
           std::nullopt};
 }
 
 FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until) {
-  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  const double length_m = sweep.way_F.norm();
+  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
   return {Advance(length_m, 0, until,
                   [&](double share) {
                     const Pose moved{Eigen::Quaterniond::Identity(), -share * sweep.way_F};
-                    return sweep.shape_F.DistanceToHull(hull, moved, up_to_m) - sweep.margin_m;
+                    // What is above far_m is a bound.
+                    return sweep.shape_F.DistanceToHull(hull, moved, far_m) - sweep.margin_m;
                   }),
           std::nullopt};
 }
 
 FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
                      double until) {
-  const double length_m = sweep.way_F.norm(), up_to_m = sweep.margin_m + length_m;
+  const double length_m = sweep.way_F.norm();
+  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
   return {Advance(length_m, 0, until,
                   [&](double share) {
                     const Eigen::Vector3d moved = center_F - share * sweep.way_F;
-                    return sweep.shape_F.DistanceToBall(moved, radius_m, up_to_m) - sweep.margin_m;
+                    return std::min(far_m, sweep.shape_F.DistanceToBall(moved, radius_m, far_m)) -
+                           sweep.margin_m;
                   }),
           std::nullopt};
 }

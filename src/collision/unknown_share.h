@@ -16,4 +16,14 @@ namespace clearway {
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                       const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled);
 
+// A shape, no point of which ever is farther than margin_m from its place.
+struct LooseShape {
+  PlacedShape shape_W;
+  double margin_m;
+};
+
+// At least what UnknownShareOf says wherever the shapes are within their margins.
+double MostUnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
+                          const std::vector<LooseShape>& shapes_W, const Cancelled& cancelled);
+
 }  // namespace clearway

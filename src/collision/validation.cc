@@ -73,6 +73,13 @@ absl::Status Validate(const StateBatch& states, const Robot& robot) {
   return ValidateStates(states.times, states.T_W_L, robot);
 }
 
+absl::Status ValidateTime(const std::string& field, Time time) {
+  const std::int64_t time_ns = ToNanoseconds(time);
+  if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) return absl::OkStatus();
+  return Invalid(field,
+                 absl::StrCat("is ", time_ns, "; it must lie within ", kMaxTime_ns, " of 0"));
+}
+
 absl::Status ValidateStates(const std::vector<Time>& times, const std::vector<Pose>& T_W_L,
                             const Robot& robot) {
   const std::size_t links = robot.links.size();
@@ -82,10 +89,8 @@ absl::Status ValidateStates(const std::vector<Time>& times, const std::vector<Po
                                 links, " links need ", times.size() * links));
   }
   for (std::size_t s = 0; s < times.size(); ++s) {
-    const std::int64_t time_ns = ToNanoseconds(times[s]);
-    if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) continue;
-    return Invalid(absl::StrCat("times_ns[", s, "]"),
-                   absl::StrCat("is ", time_ns, "; it must lie within ", kMaxTime_ns, " of 0"));
+    if (ValidateTime("", times[s]).ok()) continue;
+    return ValidateTime(absl::StrCat("times_ns[", s, "]"), times[s]);
   }
   for (std::size_t i = 0; i < T_W_L.size(); ++i) {
     constexpr double kAnywhere_m = std::numeric_limits<double>::max();

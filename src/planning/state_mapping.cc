@@ -39,8 +39,13 @@ Eigen::Vector3d FarthestCorner(const Robot& robot) {
   return box_L.min.cwiseAbs().cwiseMax(box_L.max.cwiseAbs());
 }
 
+std::optional<double> SlopeOf(const Ground& ground) {
+  return ground.height_m ? ground.max_slope : 0;
+}
+
 std::function<double(double, double)> LinkHeight(const Robot& robot, Ground ground) {
   const double above_ground_m = ground.clearance_m - BoxOf(robot).min.z();
+  if (!ground.height_m) return [above_ground_m](double, double) { return above_ground_m; };
   return [height_m = std::move(ground.height_m), above_ground_m](double x_m, double y_m) {
     return height_m(x_m, y_m) + above_ground_m;
   };
@@ -80,7 +85,7 @@ StateMapping::StateMapping(Kind kind, std::size_t links, Kinematics kinematics, 
       time_(time) {}
 
 StateMapping StateMapping::Se2(const Robot& robot, Ground ground, TimeSource time) {
-  const auto z_m = LinkHeight(robot, std::move(ground));
+  const auto z_m = LinkHeight(robot, ground);
   const double radius_m = FarthestCorner(robot).head<2>().norm();
   auto kinematics = [z_m](const ob::State* state, std::span<Pose> T_W_L) {
     const auto& s = *state->as<Se2State>();
@@ -93,11 +98,13 @@ StateMapping StateMapping::Se2(const Robot& robot, Ground ground, TimeSource tim
                     {b.getX(), b.getY(), z_m(b.getX(), b.getY())}) +
            radius_m * AngleBetween(a.getYaw(), b.getYaw());
   };
-  return StateMapping(Kind::kSe2, robot.links.size(), kinematics, bound, time);
+  StateMapping mapping(Kind::kSe2, robot.links.size(), kinematics, bound, time);
+  mapping.slope_ = SlopeOf(ground);
+  return mapping;
 }
 
 StateMapping StateMapping::R2(const Robot& robot, Ground ground, TimeSource time, double yaw_rad) {
-  auto position = [z_m = LinkHeight(robot, std::move(ground))](const ob::State* state) {
+  auto position = [z_m = LinkHeight(robot, ground)](const ob::State* state) {
     const RState& s = AsR(state);
     return Eigen::Vector3d(s[0], s[1], z_m(s[0], s[1]));
   };
@@ -107,7 +114,9 @@ StateMapping StateMapping::R2(const Robot& robot, Ground ground, TimeSource time
   auto bound = [position](const ob::State* from, const ob::State* to) {
     return Distance(position(from), position(to));
   };
-  return StateMapping(Kind::kR2, robot.links.size(), kinematics, bound, time);
+  StateMapping mapping(Kind::kR2, robot.links.size(), kinematics, bound, time);
+  mapping.slope_ = SlopeOf(ground);
+  return mapping;
 }
 
 StateMapping StateMapping::Se3(const Robot& robot, TimeSource time) {
@@ -141,14 +150,22 @@ StateMapping StateMapping::R3(const Robot& robot, TimeSource time) {
 
 StateMapping StateMapping::FromKinematics(const Robot& robot, Kinematics kinematics,
                                           TimeSource time, MotionBound bound) {
-  return StateMapping(Kind::kOther, robot.links.size(), std::move(kinematics), std::move(bound),
-                      time);
+  StateMapping mapping(Kind::kOther, robot.links.size(), std::move(kinematics), std::move(bound),
+                       time);
+  for (const Link& link : robot.links) {
+    mapping.reaches_m_.push_back(FarthestCorner({robot.name, {link}}).norm());
+  }
+  return mapping;
 }
 
 absl::Status StateMapping::ValidateSpace(const ob::StateSpace& space, const Robot& robot) const {
   if (robot.links.size() != links_) {
     return absl::InvalidArgumentError(absl::StrCat(
         "mapping: made for ", links_, " links, the checker's robot has ", robot.links.size()));
+  }
+  if (!slope_ || !(*slope_ >= 0) || !std::isfinite(*slope_)) {
+    return absl::InvalidArgumentError(
+        "ground.max_slope: must be stated with height_m, finite and at least 0");
   }
   const ob::StateSpace* part = &space;
   if (has_time()) {
@@ -204,6 +221,43 @@ std::optional<double> StateMapping::MotionBoundMetres(const ob::State* from,
   if (bound_ == nullptr) return std::nullopt;
   if (!has_time()) return (*bound_)(from, to);
   return (*bound_)(SpaceTimeStateSpace::SpacePart(from), SpaceTimeStateSpace::SpacePart(to));
+}
+
+double StateMapping::LegCount(const ob::StateSpace& space, const ob::State* from,
+                              const ob::State* to, double leg_m) const {
+  double legs = 1;
+  if (kind_ == Kind::kOther || slope_ != 0) {
+    const auto bound_m = MotionBoundMetres(from, to);
+    legs = bound_m ? std::ceil(*bound_m / leg_m)
+                   : static_cast<double>(space.validSegmentCount(from, to));
+    if (std::isnan(legs)) return legs;
+  }
+  if (kind_ == Kind::kOther) return std::max(legs, 1.0);
+  // Half a turn may go either way; half of it goes one.
+  constexpr double kHalfTurn_rad = 3;
+  StateBatch ends;
+  if (!Append(from, ends).ok() || !Append(to, ends).ok()) return std::max(legs, 1.0);
+  const double turn_rad = ends.T_W_L[0].rotation.angularDistance(ends.T_W_L[links_].rotation);
+  return std::max(legs, turn_rad > kHalfTurn_rad ? 2.0 : 1.0);
+}
+
+// Two ways from one place to another, of lengths a and b: at no time are they farther apart than
+// (a + b) / 2, as one end or the other is no farther than half of its own way from each.
+void StateMapping::AppendDeviations(const ob::State* from, const ob::State* to,
+                                    std::span<const Pose> T_W_L,
+                                    std::vector<double>& deviations_m) const {
+  const auto bound_m = kind_ == Kind::kOther ? MotionBoundMetres(from, to) : std::nullopt;
+  for (std::size_t l = 0; l < links_; ++l) {
+    const Pose &before = T_W_L[l], &after = T_W_L[links_ + l];
+    const Eigen::Vector3d way = after.translation - before.translation;
+    if (bound_m) {
+      const double straight_m =
+          way.norm() + reaches_m_[l] * before.rotation.angularDistance(after.rotation);
+      deviations_m.push_back(0.5 * (*bound_m + straight_m));
+    } else {
+      deviations_m.push_back(0.5 * slope_.value_or(0) * way.head<2>().norm());
+    }
+  }
 }
 
 }  // namespace clearway

@@ -17,6 +17,10 @@ class Kept : public StateChecker {
                                    const CheckOptions& options) const override {
     return checker_->Check(states, options);
   }
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
+                                           const MotionOptions& options) const override {
+    return checker_->CheckMotions(motions, options);
+  }
   const Robot& robot() const override { return checker_->robot(); }
   std::uint64_t version() const override { return checker_->version(); }
   Time stamp() const override { return checker_->stamp(); }

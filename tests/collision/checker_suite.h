@@ -8,6 +8,7 @@
 #pragma once
 
 #include "collision/checker_suite_batches.h"
+#include "collision/checker_suite_motions.h"
 #include "collision/checker_suite_objects.h"
 #include "collision/checker_suite_space.h"
 
@@ -27,6 +28,8 @@ REGISTER_TYPED_TEST_SUITE_P(
     ClearanceEndsWhereItWasAskedTo, EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid,
     PosesOfShapesInTheirLinkCount, AnswersComeInTheOrderOfTheStates,
     AnswersAreThoseOfTheLocalChecker, ManyThreadsGetTheSameAnswers, RefusesBatchesThatDoNotFit,
-    RefusesOptionsOutOfRange);
+    RefusesOptionsOutOfRange, MotionsAreAnsweredAsByTheLocalChecker,
+    MotionsAreProvedFreeOrShowTheirFirstContact, NoMotionsAreAValidQuestion,
+    RefusesMotionsThatDoNotFit);
 
 }  // namespace clearway

@@ -113,6 +113,43 @@ TEST(UnknownShare, OfASmallRobotIsThatOfItsVoxels) {
   EXPECT_EQ(UnknownShareOf(map, {beside}, shapes.all(), kNever), 0);
 }
 
+// Shapes that move and turn within their margins, and some that overlap.
+TEST(MostUnknownShare, HoldsWhereverTheShapesAre) {
+  Random random(2);
+  int tight = 0, useful = 0;
+  for (int i = 0; i < 60; ++i) {
+    const VoxelMap map = MapWithGaps(random, random.Uniform(0.5, 1));
+    const double margin_m = i % 3 == 0 ? 0 : random.Uniform(0, 0.1);
+    const Eigen::Vector3d corner = random.Vector(1);
+    const std::vector<Aabb> known_free{{corner, corner + Eigen::Vector3d::Constant(1)}};
+    std::deque<ShapeGeometry> geometries;
+    std::vector<LooseShape> loose;
+    std::vector<Pose> places;
+    for (int k = random.Integer(1, 3); k > 0; --k) {
+      geometries.emplace_back(AnyShape(random));
+      places.push_back(random.AnyPose(0.8));
+      loose.push_back({PlacedShape(geometries.back(), places.back()), margin_m});
+    }
+    const double dut = MostUnknownShareOf(map, known_free, loose, kNever);
+    useful += dut < 1;
+    for (int j = 0; j < 20; ++j) {
+      PlacedShapes moved;
+      for (std::size_t s = 0; s < places.size(); ++s) {
+        const double radius_m = geometries[s].box_G().Size().norm() / 2;
+        const double angle_rad = 0.5 * margin_m / radius_m;
+        const Eigen::AngleAxisd turn(random.Uniform(-angle_rad, angle_rad), random.UnitVector());
+        const Eigen::Vector3d way = random.Uniform(0, 0.5) * margin_m * random.UnitVector();
+        moved.Add(geometries[s].shape(), {places[s].rotation * turn, places[s].translation + way});
+      }
+      const double share = UnknownShareOf(map, known_free, moved.all(), kNever);
+      ASSERT_LE(share, dut + 1e-12) << i;
+      tight += margin_m == 0 && share > 0.98 * dut;
+    }
+  }
+  EXPECT_GT(useful, 40);
+  EXPECT_GT(tight, 200);
+}
+
 TEST(UnknownShare, EndsWhenNobodyWaits) {
   const VoxelMap map(0.1);
   PlacedShapes shapes;

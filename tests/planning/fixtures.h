@@ -70,6 +70,10 @@ class FailingChecker : public StateChecker {
   absl::StatusOr<CheckReply> Check(const StateBatch&, const CheckOptions&) const override {
     return status_;
   }
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch&,
+                                           const MotionOptions&) const override {
+    return status_;
+  }
   const Robot& robot() const override { return robot_; }
   std::uint64_t version() const override { return 7; }
   Time stamp() const override { return Time(); }

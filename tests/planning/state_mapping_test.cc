@@ -27,6 +27,7 @@ TEST(StateMapping, Empty) {
 
 TEST(StateMapping, Se2StandsOnTheGroundWithItsLowestPoint) {
   const Ground slope{.height_m = [](double x_m, double y_m) { return 0.1 * x_m - 0.2 * y_m; },
+                     .max_slope = 0.25,
                      .clearance_m = 0.15};
   const auto dut = StateMapping::Se2(DeliveryRobot(), slope, FixedTime{kNow});
   const StateBatch batch = BatchOf(dut, MakeState(MakeSe2(), {3, 1, kHalfTurn / 2}));
@@ -161,10 +162,25 @@ TEST(StateMapping, RefusesARobotOfOtherLinks) {
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
 }
 
+TEST(StateMapping, HeightsNeedASlope) {
+  Ground ground{.height_m = [](double x_m, double) { return 0.1 * x_m; }};
+  const auto status = [&] {
+    return StateMapping::R2(DeliveryRobot(), ground, FixedTime{kNow})
+        .ValidateSpace(*MakeRn(2), DeliveryRobot());
+  };
+  for (const std::optional<double> bad : {std::optional<double>(), {-0.1}, {std::nan("")}}) {
+    ground.max_slope = bad;
+    EXPECT_EQ(status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(status().message().find("ground.max_slope"), std::string::npos);
+  }
+  ground.max_slope = 0.1;
+  EXPECT_TRUE(status().ok()) << status();
+}
+
 TEST(StateMapping, RefusesPosesThatAreNotFinite) {
   const auto space = MakeSe2();
   const Ground hole{.height_m = [](double x_m, double) { return x_m > 1 ? std::nan("") : 0.0; },
-                    .clearance_m = 0.1};
+                    .max_slope = 0};
   const auto dut = StateMapping::Se2(DeliveryRobot(), hole, FixedTime{kNow});
   for (const auto& bad : {MakeState(space, {2, 0, 0}), MakeState(space, {0, std::nan(""), 0})}) {
     StateBatch batch;

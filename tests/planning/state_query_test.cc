@@ -1,9 +1,11 @@
 #include "clearway/planning/state_query.h"
 
 #include <gtest/gtest.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
 
 #include <cmath>
 
+#include "collision/link_motion.h"
 #include "planning/fixtures.h"
 
 namespace clearway {
@@ -22,11 +24,21 @@ class RecordingChecker : public StateChecker {
     return CheckReply{answer_version, Time(),
                       std::vector<StateAnswer>(states.times.size() - missing_answers, free)};
   }
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
+                                           const MotionOptions&) const override {
+    motion = motions;
+    ++calls;
+    MotionAnswer free;
+    free.status = SpaceStatus::kFree;
+    return MotionReply{
+        answer_version, Time(), {}, std::vector<MotionAnswer>(motions.knot_counts.size(), free)};
+  }
   const Robot& robot() const override { return robot_; }
   std::uint64_t version() const override { return 7; }
   Time stamp() const override { return Time(); }
 
   mutable StateBatch batch;
+  mutable MotionBatch motion;
   mutable int calls = 0;
   std::uint64_t answer_version = 7;
   std::size_t missing_answers = 0;
@@ -164,6 +176,94 @@ TEST_F(StateQueryTest, AReplyOfAnotherLengthIsAnError) {
     EXPECT_EQ(answer.status, SpaceStatus::kUnresolved);
   }
   EXPECT_EQ(dut.error_count(), 1);
+}
+
+// At each moment of a motion that is put to the checker, against the space's interpolation.
+void ExpectWithinDeviations(const StateQuery& query, const MotionBatch& motion,
+                            const ompl::base::ScopedState<>& a,
+                            const ompl::base::ScopedState<>& b) {
+  ompl::base::ScopedState<> state(a);
+  const std::size_t legs = motion.T_W_L.size() - 1;
+  for (std::size_t i = 0; i <= 10 * legs; ++i) {
+    const double at = static_cast<double>(i) / 10;
+    const auto leg = std::min(static_cast<std::size_t>(at), legs - 1);
+    query.space().interpolate(a.get(), b.get(), at / static_cast<double>(legs), state.get());
+    StateBatch truth;
+    ASSERT_TRUE(query.mapping().Append(state.get(), truth).ok());
+    const Pose told =
+        LinkMotion(motion.T_W_L[leg], motion.T_W_L[leg + 1], 1).At(at - static_cast<double>(leg));
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d p_L(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.35 : -0.35,
+                                corner & 4 ? 0.5 : -0.5);
+      ASSERT_LE((told * p_L - truth.T_W_L[0] * p_L).norm(), motion.deviations_m[leg] + 1e-9);
+    }
+  }
+}
+
+// A crank of 1.5 m with the robot turning at its end.
+void PlaceOnCrank(const ompl::base::State* state, std::span<Pose> T_W_L) {
+  const auto& q = *state->as<ompl::base::RealVectorStateSpace::StateType>();
+  const Eigen::AngleAxisd crank(q[0], Eigen::Vector3d::UnitZ()),
+      end(q[1], Eigen::Vector3d::UnitY());
+  T_W_L[0] = {Eigen::Quaterniond(crank * end), crank * Eigen::Vector3d(1.5, 0, 0)};
+}
+
+TEST_F(StateQueryTest, LinksStayWithinTheDeviationsThatTheCheckerIsTold) {
+  const double reach_m = Eigen::Vector3d(0.5, 0.35, 0.5).norm();
+  const auto bound = [&](const ompl::base::State* from, const ompl::base::State* to) {
+    const auto& a = *from->as<ompl::base::RealVectorStateSpace::StateType>();
+    const auto& b = *to->as<ompl::base::RealVectorStateSpace::StateType>();
+    return std::abs(a[0] - b[0]) * (1.5 + reach_m) + std::abs(a[1] - b[1]) * reach_m;
+  };
+  const Ground waves{.height_m = [](double x, double y) { return 0.3 * std::sin(x + 2 * y); },
+                     .max_slope = 0.3 * std::sqrt(5)};
+  const FixedTime now{Time()};
+  const Robot robot = DeliveryRobot();
+  const std::vector<std::pair<ompl::base::StateSpacePtr, StateMapping>> cases = {
+      {MakeSe2(), StateMapping::Se2(robot, {}, now)},
+      {MakeSe2(), StateMapping::Se2(robot, waves, now)},
+      {MakeRn(2), StateMapping::R2(robot, waves, now)},
+      {MakeRn(3), StateMapping::R3(robot, now)},
+      {MakeRn(2), StateMapping::FromKinematics(robot, PlaceOnCrank, now, bound)}};
+  for (const auto& [space, mapping] : cases) {
+    const auto dut = Query(space, mapping);
+    const auto sampler = space->allocStateSampler();
+    ompl::base::ScopedState<> a(space), b(space);
+    for (int i = 0; i < 30; ++i) {
+      sampler->sampleUniform(a.get());
+      sampler->sampleUniform(b.get());
+      EXPECT_TRUE(dut.ProveMotion(a.get(), b.get()).free());
+      ExpectWithinDeviations(dut, checker_->motion, a, b);
+    }
+  }
+}
+
+TEST_F(StateQueryTest, HalfATurnGoesTheWayOfTheSpace) {
+  const auto space = MakeSe2();
+  const auto dut = Query(space, StateMapping::Se2(DeliveryRobot(), {}, FixedTime{Time()}));
+  for (const double yaw_rad : {-kHalfTurn, kHalfTurn - 1e-9, 3.1}) {
+    const auto a = MakeState(space, {0, 0, 0}), b = MakeState(space, {0, 0, yaw_rad});
+    EXPECT_TRUE(dut.ProveMotion(a.get(), b.get()).free());
+    EXPECT_EQ(checker_->motion.knot_counts, std::vector<std::size_t>{3});
+    ExpectWithinDeviations(dut, checker_->motion, a, b);
+  }
+}
+
+TEST_F(StateQueryTest, ProofsOfAnotherVersionAreErrors) {
+  checker_->answer_version = 8;
+  const auto space = MakeRn(3);
+  const auto dut = Query(space, StateMapping::R3(DeliveryRobot(), FixedTime{Time()}));
+  const auto a = MakeState(space, {0, 0, 0}), b = MakeState(space, {1, 0, 0});
+  EXPECT_FALSE(dut.ProveMotion(a.get(), b.get()).free());
+  EXPECT_EQ(dut.ProveMotion(a.get(), b.get()).free_fraction, 0);
+  EXPECT_EQ(dut.error_count(), 2);
+}
+
+TEST_F(StateQueryTest, WhatIsNoNumberIsNotProvedFree) {
+  const auto space = MakeRn(3);
+  const auto dut = Query(space, StateMapping::R3(DeliveryRobot(), FixedTime{Time()}));
+  const auto a = MakeState(space, {-9, 0, 0}), b = MakeState(space, {std::nan(""), 0, 0});
+  EXPECT_FALSE(dut.ProveMotion(a.get(), b.get()).free());
 }
 
 TEST_F(StateQueryTest, OptionsThatMakeNoSenseAreRefused) {

@@ -114,6 +114,22 @@ class BadInput : public testing::Test {
     v1::CheckStatesResponse response;
     return Call(*check_, &v1::CheckService::Stub::CheckStates, request, &response);
   }
+  // One of so many knots.
+  v1::CheckMotionsRequest GoodMotion(int knots) {
+    v1::CheckMotionsRequest request;
+    request.set_robot_id(robot_id_);
+    request.mutable_options()->set_unknown_space(v1::UNKNOWN_SPACE_POLICY_FREE);
+    request.add_knot_counts(knots);
+    for (int k = 0; k < knots; ++k) {
+      request.add_times_ns(k);
+      Append(Pose{}, request.mutable_world_from_link());
+    }
+    return request;
+  }
+  absl::Status Check(const v1::CheckMotionsRequest& request) {
+    v1::CheckMotionsResponse response;
+    return Call(*check_, &v1::CheckService::Stub::CheckMotions, request, &response);
+  }
   static void Expect(const absl::Status& status, absl::StatusCode code, const std::string& field) {
     EXPECT_EQ(status.code(), code) << status;
     EXPECT_FALSE(ReasonOf(status).empty()) << status;

@@ -29,6 +29,36 @@ TEST_F(BadInput, Checks) {
   Expect(Check(GoodCheck(11)), Code::kResourceExhausted, "times_ns");
 }
 
+TEST_F(BadInput, Motions) {
+  using Code = absl::StatusCode;
+  const auto refused = [&](auto spoil) {
+    v1::CheckMotionsRequest request = GoodMotion(3);
+    spoil(request);
+    return Check(request);
+  };
+  EXPECT_TRUE(refused([](auto&) {}).ok());
+  Expect(refused([](auto& r) { r.set_robot_id("nobody"); }), Code::kNotFound, "robot_id");
+  Expect(refused([](auto& r) { r.mutable_options()->clear_unknown_space(); }),
+         Code::kInvalidArgument, "options.unknown_space");
+  Expect(refused([](auto& r) { r.mutable_options()->set_padding_m(kInfinity); }),
+         Code::kInvalidArgument, "options.padding_m");
+  Expect(refused([](auto& r) { r.mutable_options()->set_clearance_up_to_m(1); }),
+         Code::kInvalidArgument, "options.clearance_up_to_m");
+  Expect(refused([](auto& r) { r.set_contact_resolution_m(0); }), Code::kInvalidArgument,
+         "contact_resolution_m");
+  Expect(refused([](auto& r) { r.set_knot_counts(0, 1); }), Code::kInvalidArgument,
+         "knot_counts[0]");
+  Expect(refused([](auto& r) { r.set_knot_counts(0, 4'000'000'000u); }), Code::kInvalidArgument,
+         "times_ns");
+  Expect(refused([](auto& r) { r.set_times_ns(2, 1); }), Code::kInvalidArgument, "times_ns[2]");
+  Expect(refused([](auto& r) { r.add_deviations_m(1); }), Code::kInvalidArgument, "deviations_m");
+  Expect(refused([](auto& r) { r.mutable_deviations_m()->Resize(3, -1); }), Code::kInvalidArgument,
+         "deviations_m[0]");
+  Expect(refused([](auto& r) { r.mutable_world_from_link()->set_translations_m(5, kNan); }),
+         Code::kInvalidArgument, "world_from_link[1]");
+  Expect(Check(GoodMotion(11)), Code::kResourceExhausted, "times_ns");
+}
+
 TEST_F(BadInput, Robots) {
   using Code = absl::StatusCode;
   const auto refused = [&](const Robot& robot) {

@@ -16,10 +16,11 @@ struct RemoteCheckerOptions {
   std::uint64_t min_version = 0;
 };
 
-// Checks states over the network, pinned to one scene version by a lease until it is destroyed. Any
-// number of threads may call Check. Batches above the server's limit (states_per_request) are sent
-// in pieces; every piece is answered on the same version. Check fails with FAILED_PRECONDITION once
-// the lease is lost (the server was unreachable for longer than the time to live, or restarted).
+// Checks states and motions over the network, pinned to one scene version by a lease until it is
+// destroyed. Any number of threads may call it. Batches above the server's limit
+// (states_per_request) are sent in pieces; every piece is answered on the same version. Fails with
+// FAILED_PRECONDITION once the lease is lost (the server was unreachable for longer than the time
+// to live, or restarted).
 class RemoteChecker : public StateChecker {
  public:
   // Registers the robot (by the hash of its content) and pins the newest version.
@@ -30,6 +31,9 @@ class RemoteChecker : public StateChecker {
 
   absl::StatusOr<CheckReply> Check(const StateBatch& states,
                                    const CheckOptions& options) const override;
+  // RESOURCE_EXHAUSTED for a motion of more than states_per_request knots.
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
+                                           const MotionOptions& options) const override;
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;

@@ -7,8 +7,11 @@
 
 #include "absl/status/status.h"
 #include "clearway/base/time.h"
-#include "clearway/collision/state_checker.h"
+#include "clearway/collision/check_options.h"
+#include "clearway/collision/robot.h"
+#include "clearway/geometry/pose.h"
 #include "clearway/map/voxel_key.h"
+#include "clearway/scene/scene_snapshot.h"
 
 namespace clearway {
 
@@ -30,6 +33,9 @@ struct MotionOptions {
   CheckOptions check;  // without a clearance and without the share of unknown space
   // Where neither freedom nor contact can be proved, bisection ends at motions of this length.
   double contact_resolution_m = 0.01;
+  // If set, the world stands still as it is at this time while the robot moves: for plans without
+  // time. The times of knots then only say how fast the robot goes.
+  std::optional<Time> world_at = std::nullopt;
 };
 
 // The first contact of a motion. A plain value.
@@ -44,8 +50,8 @@ struct MotionWitness {
 
 struct MotionAnswer {
   // kFree is proved for every moment of the motion, from its first knot to its last. kUnresolved is
-  // neither proved free nor in contact: within bounded effort, and with kTolerated wherever
-  // space is touched that was never observed. Anything else is the status at the witness' end.
+  // neither proved free nor in contact, within bounded effort. Anything else is the status at the
+  // witness' end.
   SpaceStatus status = SpaceStatus::kUnresolved;
   // Proved free from the first knot up to here.
   Time free_until;

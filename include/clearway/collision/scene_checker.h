@@ -10,8 +10,8 @@
 
 namespace clearway {
 
-// Checks states against one snapshot: the local checker, and with a mirror's snapshot the mirrored
-// one. FCL does shape against shape; an exception of it counts as contact.
+// Checks states and motions against one snapshot: the local checker, and with a mirror's snapshot
+// the mirrored one. FCL does shape against shape; an exception of it counts as contact.
 class SceneChecker : public StateChecker {
  public:
   // What takes long is in `robot`: make it once, and a checker for each version of the scene.
@@ -22,20 +22,19 @@ class SceneChecker : public StateChecker {
 
   absl::StatusOr<CheckReply> Check(const StateBatch& states,
                                    const CheckOptions& options) const override;
-  // The same, but looks at `cancelled` every so often, within a state too, and ends with CANCELLED
-  // soon after it has become true. It must then stay true.
+  // Both with `cancelled` look at it every so often, within a state or motion too, and end with
+  // CANCELLED soon after it has become true. It must then stay true.
   absl::StatusOr<CheckReply> Check(const StateBatch& states, const CheckOptions& options,
                                    const std::function<bool()>& cancelled) const;
-  // Whether each motion is free, by proof, or where it is in contact first. Errors as of Check.
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
+                                           const MotionOptions& options) const override;
   absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions, const MotionOptions& options,
-                                           const std::function<bool()>& cancelled = Never) const;
+                                           const std::function<bool()>& cancelled) const;
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;
 
  private:
-  static bool Never() { return false; }
-
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <variant>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -22,8 +23,12 @@ namespace clearway {
 // one voxel is enough on even ground, plus CheckOptions::padding_m, which grows the robot downwards
 // too.
 struct Ground {
-  // z of the ground at (x, y), metres in W. Must be callable from any thread, and finite.
-  std::function<double(double x_m, double y_m)> height_m = [](double, double) { return 0.0; };
+  // z of the ground at (x, y), metres in W; none: 0 everywhere. Must be callable from any thread,
+  // and finite.
+  std::function<double(double x_m, double y_m)> height_m;
+  // The most that height_m changes per metre. Has to be stated with it: proofs of motions rest on
+  // it.
+  std::optional<double> max_slope = std::nullopt;
   double clearance_m = 0.1;
 };
 
@@ -58,13 +63,14 @@ class StateMapping {
   static StateMapping R3(const Robot& robot, TimeSource time);
 
   // Any other space, an arm's R^n for one. Without a bound, edges are cut as
-  // StateSpace::validSegmentCount says (setLongestValidSegmentFraction), not by metres. Both
+  // StateSpace::validSegmentCount says (setLongestValidSegmentFraction), not by metres, and links
+  // are taken to go straight from cut to cut: what is proved then is no more than that. Both
   // functions must be callable from any thread.
   static StateMapping FromKinematics(const Robot& robot, Kinematics kinematics, TimeSource time,
                                      MotionBound bound = nullptr);
 
-  // INVALID_ARGUMENT if states of `space` are not those that the mapping reads, or `robot` has
-  // another number of links.
+  // INVALID_ARGUMENT if states of `space` are not those that the mapping reads, `robot` has another
+  // number of links, or the ground has heights but no slope.
   absl::Status ValidateSpace(const ompl::base::StateSpace& space, const Robot& robot) const;
 
   bool has_time() const { return std::holds_alternative<TimeSince>(time_); }
@@ -76,6 +82,15 @@ class StateMapping {
   // The MotionBound for two states of the whole space; none if there is no bound.
   std::optional<double> MotionBoundMetres(const ompl::base::State* from,
                                           const ompl::base::State* to) const;
+  // Into how many legs to cut the way between two states of `space`, the mapping's, so that links
+  // go straight and turn evenly on each, up to their deviations: legs of leg_m where they go on
+  // curves.
+  double LegCount(const ompl::base::StateSpace& space, const ompl::base::State* from,
+                  const ompl::base::State* to, double leg_m) const;
+  // How far the links may stray from that between two states, in metres: appends one for each link.
+  // T_W_L: of the links at `from`, then at `to`.
+  void AppendDeviations(const ompl::base::State* from, const ompl::base::State* to,
+                        std::span<const Pose> T_W_L, std::vector<double>& deviations_m) const;
 
  private:
   enum class Kind { kSe2, kSe3, kR2, kR3, kOther };
@@ -87,6 +102,8 @@ class StateMapping {
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const MotionBound> bound_;  // null if there is none
   TimeSource time_;
+  std::optional<double> slope_ = 0;  // of the ground; none if it had to be stated
+  std::vector<double> reaches_m_;    // of the links of another space: from the origin
 };
 
 }  // namespace clearway

@@ -18,8 +18,11 @@ namespace clearway {
 // What a plan is checked against, and how finely. A plain value.
 struct PlanningOptions {
   CheckOptions check;
-  // Between two checked states of a motion no point of the robot moves further (half a voxel of 10
-  // cm) ...
+  // What contact_resolution_m is to MotionOptions.
+  double contact_resolution_m = 0.01;
+  // Where states are looked at and nothing is proved (CheckMotion): between two of a motion no
+  // point of the robot moves further (half a voxel of 10 cm) ... Links that go on curves are proved
+  // by legs of about that size.
   double step_m = 0.05;
   // ... and no more time passes: a robot that waits is checked as often as one that drives at 2
   // m/s. An object of v m/s is met within v * step / 2 of a checked pose: add that as padding where
@@ -31,8 +34,20 @@ struct PlanningOptions {
   double clearance_up_to_m = 1.0;
 };
 
+// For motions: without what is only told of states.
+MotionOptions MotionOptionsOf(const PlanningOptions& options);
+
 // INVALID_ARGUMENT naming the field and the limit.
 absl::Status Validate(const PlanningOptions& options, const Robot& robot);
+
+// What is proved of a whole motion. A plain value.
+struct MotionProof {
+  MotionAnswer answer;
+  // Of the motion, proved free from its start on; 1 only if all of it is.
+  double free_fraction = 0;
+
+  bool free() const { return answer.status == SpaceStatus::kFree; }
+};
 
 // Checks OMPL states of one space with one StateChecker, so on one scene version. Every failure
 // makes kUnresolved answers (not free) and is counted. Any thread may call any method.
@@ -54,6 +69,11 @@ class StateQuery {
   std::vector<StateAnswer> CheckMotion(const ompl::base::State* from, const ompl::base::State* to,
                                        std::vector<Time>* times = nullptr) const;
 
+  // Whether all of the motion is free, by proof: one call of the checker, or two for a robot whose
+  // links go on curves. A motion that cannot be checked is kUnresolved, as above; one that ends
+  // outside the space's bounds is kOutOfBounds if it is free up to there.
+  MotionProof ProveMotion(const ompl::base::State* from, const ompl::base::State* to) const;
+
   const ompl::base::StateSpace& space() const { return *space_; }
   const StateChecker& checker() const { return *checker_; }
   const StateMapping& mapping() const { return mapping_; }
@@ -68,6 +88,13 @@ class StateQuery {
   StateAnswer CheckOne(const ompl::base::State* state, const CheckOptions& options) const;
   std::vector<StateAnswer> Answer(const StateBatch& batch, const CheckOptions& options) const;
   std::vector<StateAnswer> Unresolved(std::size_t size, const absl::Status& why) const;
+  // One motion, in legs of leg_m where its links go on curves.
+  absl::StatusOr<MotionBatch> MotionOf(const ompl::base::State* from, const ompl::base::State* to,
+                                       double leg_m) const;
+  MotionProof Prove(MotionBatch motion) const;
+  double FractionWithinBounds(const ompl::base::State* from, const ompl::base::State* to) const;
+  void CountError(const absl::Status& why) const;
+  absl::Status WrongVersion(std::uint64_t answered) const;
   double StepCount(const ompl::base::State* from, const ompl::base::State* to) const;
 
   ompl::base::StateSpacePtr space_;
@@ -75,6 +102,7 @@ class StateQuery {
   StateMapping mapping_;
   PlanningOptions options_;
   CheckOptions clearance_options_;
+  MotionOptions motion_options_;
   mutable std::atomic<std::int64_t> error_count_ = 0;
   mutable std::mutex mutex_;
   mutable absl::Status first_error_;  // guarded by mutex_
