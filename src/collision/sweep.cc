@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kTouching_m = 1e-7;
 constexpr int kMostSteps = 24;
-// Of gaps above this part of the way it is enough to know that they are: steps of that part do.
+// Of gaps above this part of the way it is enough to know that they are: steps of that part do. In
+// std::min the distance comes first: then what is not a number stays so.
 constexpr double kFarShare = 0.25, kLeastFar_m = 0.01;
 
 // Goes on by what is certainly free until gap_m(share), at most the gap at that share of the way,
@@ -180,7 +181,7 @@ FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
   return {Advance(length_m, 0, until,
                   [&](double share) {
                     const Aabb moved = Moved(box_F, -share * sweep.way_F);
-                    return std::min(far_m, sweep.shape_F.DistanceTo(moved, far_m)) - sweep.margin_m;
+                    return std::min(sweep.shape_F.DistanceTo(moved, far_m), far_m) - sweep.margin_m;
                   }),
           std::nullopt};
 }
@@ -204,7 +205,7 @@ FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Swe
   return {Advance(length_m, 0, until,
                   [&](double share) {
                     const Eigen::Vector3d moved = center_F - share * sweep.way_F;
-                    return std::min(far_m, sweep.shape_F.DistanceToBall(moved, radius_m, far_m)) -
+                    return std::min(sweep.shape_F.DistanceToBall(moved, radius_m, far_m), far_m) -
                            sweep.margin_m;
                   }),
           std::nullopt};

@@ -156,7 +156,7 @@ absl::StatusOr<MotionBatch> StateQuery::MotionOf(const ob::State* from, const ob
   MotionBatch motion;
   StateBatch states;
   for (int i = 0; i <= n; ++i) {
-    space_->copyState(before.get(), state.get());
+    if (i > 0) space_->copyState(before.get(), state.get());
     space_->interpolate(from, to, static_cast<double>(i) / n, state.get());
     if (auto status = mapping_.Append(state.get(), states); !status.ok()) return status;
     if (i == 0) continue;

@@ -42,7 +42,7 @@ absl::Status Validate(const PlanningOptions& options, const Robot& robot);
 
 // What is proved of a whole motion. A plain value.
 struct MotionProof {
-  MotionAnswer answer;
+  MotionAnswer answer;  // if no time passes, its times are not the world's: see free_fraction
   // Of the motion, proved free from its start on; 1 only if all of it is.
   double free_fraction = 0;
 
