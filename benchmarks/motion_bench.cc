@@ -21,8 +21,8 @@
 namespace clearway::bench {
 namespace {
 
-constexpr double kStep_m = 0.05, kLasts_s = 2;
-constexpr std::size_t kAtOnce = 16;  // states, before the next are asked about
+constexpr double kStep_m = 0.05, kLasts_s = 2;  // contacts are told as finely by both
+constexpr std::size_t kAtOnce = 16;             // states, before the next are asked about
 
 struct Asked {
   MotionBatch motion;  // one
@@ -95,7 +95,7 @@ double LeastUs(Work&& work) {
 
 void Measure(const SceneChecker& checker, const FclChecker* fcl, const Asked& asked,
              Ratios& ratios) {
-  const MotionOptions options{UnknownIsFree(), MotionOptions{}.contact_resolution_m, std::nullopt};
+  const MotionOptions options{UnknownIsFree(), kStep_m, std::nullopt};
   SpaceStatus status{};
   const double proof_us =
       LeastUs([&] { status = checker.CheckMotions(asked.motion, options)->answers[0].status; });

@@ -70,12 +70,6 @@ double CubeContact::GapOfBoxes(const Eigen::Vector3d& center_F, double half_edge
   return gap_m;
 }
 
-double CubeContact::Gap(const Eigen::Vector3d& center_F, double half_edge_m) const {
-  const double gap_m = DistanceTo(center_F, half_edge_m).least_m;
-  if (!box_) return gap_m;
-  return std::max(gap_m, GapOfBoxes(center_F, half_edge_m) - kRounding_m);
-}
-
 // By the balls about the cube and in it.
 CubeContact::Answer CubeContact::OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const {
   const DistanceGrid::Surroundings around = mesh_->Around(shape_.ToG(center_F));
@@ -115,6 +109,18 @@ CubeContact::Bounds CubeContact::DistanceTo(const Eigen::Vector3d& center_F,
   const auto [least_m, most_m] = FromCore(*to_center_F, half_edge_m);
   return {std::max(least_m - radius_m_, 0.0) - kRounding_m,
           std::max(most_m - radius_m_, 0.0) + kRounding_m};
+}
+
+// The plane of FromCore.
+std::optional<Separation> CubeContact::Apart(const Eigen::Vector3d& center_F,
+                                             double half_edge_m) const {
+  const std::optional<Eigen::Vector3d> to_center_F = FromConvex(center_F);
+  if (!to_center_F) return std::nullopt;
+  const double distance_m = to_center_F->norm();
+  if (distance_m == 0) return Separation{};
+  const Eigen::Vector3d direction_F = *to_center_F / distance_m;
+  const double reach_m = radius_m_ + half_edge_m * direction_F.cwiseAbs().sum();
+  return Separation{direction_F, distance_m - reach_m - kRounding_m};
 }
 
 // As OfMesh.

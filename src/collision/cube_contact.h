@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "collision/narrowphase.h"
+#include "collision/separation.h"
 
 namespace clearway {
 
@@ -33,8 +34,9 @@ class CubeContact {
     double least_m, most_m;
   };
   Bounds DistanceTo(const Eigen::Vector3d& center_F, double half_edge_m) const;
-  // As `least_m`, but takes longer and for boxes is closer: it is above 0 whenever they are apart.
-  double Gap(const Eigen::Vector3d& center_F, double half_edge_m) const;
+  // Along the way from the shape's nearest point to the cube's centre. None is known for meshes,
+  // and for hulls that are not prepared as such.
+  std::optional<Separation> Apart(const Eigen::Vector3d& center_F, double half_edge_m) const;
 
  private:
   static constexpr double kToCorner = 1.7320508075688774;  // of a cube's centre, in half edges

@@ -144,21 +144,25 @@ std::size_t ExtremePoints::SquareOf(const Eigen::Vector3d& direction) const {
   return (face * cells + cell(1)) * cells + cell(2);
 }
 
-double ExtremePoints::Farthest(const Eigen::Vector3d& direction_G) const {
+const Eigen::Vector3d& ExtremePoints::Farthest(const Eigen::Vector3d& direction_G) const {
   const std::size_t square = SquareOf(direction_G);
   double farthest = -std::numeric_limits<double>::infinity();
+  std::size_t index = first_[square];
   for (std::uint32_t i = first_[square]; i < first_[square + 1]; ++i) {
-    farthest = std::max(farthest, direction_G.dot(candidates_G_[i]));
+    const double far = direction_G.dot(candidates_G_[i]);
+    if (!(far > farthest)) continue;
+    farthest = far;
+    index = i;
   }
-  return farthest;
+  return candidates_G_[index];
 }
 
 Aabb ExtremePoints::BoxTurned(const Eigen::Matrix3d& R_F_G) const {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d direction_G = R_F_G.row(axis).transpose();
-    box.max[axis] = Farthest(direction_G);
-    box.min[axis] = -Farthest(-direction_G);
+    box.max[axis] = direction_G.dot(Farthest(direction_G));
+    box.min[axis] = direction_G.dot(Farthest(-direction_G));
   }
   return box;
 }

@@ -23,6 +23,9 @@ class ExtremePoints {
   // origin is G's.
   Aabb BoxTurned(const Eigen::Matrix3d& R_F_G) const;
 
+  // The point, or else the corner, that is farthest in a direction.
+  const Eigen::Vector3d& Farthest(const Eigen::Vector3d& direction_G) const;
+
  private:
   // The directions through a square of one face of the cube around the origin: those with `sign`
   // for their coordinate on `axis`, and u to u + edge and v to v + edge on the two axes after it.
@@ -36,7 +39,6 @@ class ExtremePoints {
   void Split(const Square& square, const Indices& candidates, int level);
   Indices MayBeFarthest(const Square& square, const Indices& candidates) const;
   std::size_t SquareOf(const Eigen::Vector3d& direction) const;
-  double Farthest(const Eigen::Vector3d& direction_G) const;
 
   // Only while it is made.
   std::vector<Eigen::Vector3d> points_G_;

@@ -72,8 +72,8 @@ void MotionCheck::SetLeg(const TimeSpan& span, const Pose* from_T_W_L, const Pos
   }
 }
 
-// Where a span's sweeps stop, contact may be near: a look ahead tells, and then no span need go
-// beyond it.
+// Where a span's sweeps stop, contact may be near: looks at single states tell, which cost far less
+// than sweeps, and then no span need go beyond it.
 bool MotionCheck::Prove(MotionAnswer& answer) {
   const Duration longest = LongestSpan(), shortest = ShortestSpan();
   const Duration least = std::max(Duration(1), shortest / kFiner);
@@ -89,17 +89,7 @@ bool MotionCheck::Prove(MotionAnswer& answer) {
       continue;
     }
     answer.free_until = span.At(stop.share);
-    const double shorts = 1 + 2 * stop.slack_m / context_.options.contact_resolution_m;
-    const Duration ahead = Seconds(shorts * ToSeconds(shortest));
-    std::array<Time, 3> looks{answer.free_until, std::min(end, answer.free_until + ahead)};
-    // Too much unknown space may be in the robot for a moment alone.
-    looks[2] = options_.unknown == UnknownPolicy::kTolerated ? span.until : looks[1];
-    for (const Time t : looks) {
-      if (answer.witness && t == end) continue;
-      if (!InContact(t, answer)) continue;
-      end = t;
-      break;
-    }
+    end = EarliestContact(span, stop.slack_m, end, answer);
     if (answer.witness && end - answer.free_until <= shortest) break;
     if (span.until - span.from <= least && stop.share < 0.5) break;
     // The rest of the way to a contact is short already.
@@ -111,6 +101,32 @@ bool MotionCheck::Prove(MotionAnswer& answer) {
     answer.witness->voxel = TouchedVoxel(end, StateAt(end));
   }
   return !answer.witness && answer.free_until == leg_.span.until;
+}
+
+// From what is proved free on, for a sweep of that slack stopped there: the state may be in contact
+// as soon as it has made up for the slack. Returns `end` if nothing earlier is known.
+Time MotionCheck::EarliestContact(const TimeSpan& span, double slack_m, Time end,
+                                  MotionAnswer& answer) {
+  const Duration shortest = ShortestSpan();
+  const double shorts = 1 + 2 * slack_m / context_.options.contact_resolution_m;
+  const Time from = answer.free_until;
+  std::array<Time, 4> looks{from, from + shortest, from + Seconds(shorts * ToSeconds(shortest)),
+                            from};
+  // Too much unknown space may be in the robot for a moment alone.
+  if (options_.unknown == UnknownPolicy::kTolerated) looks[3] = span.until;
+  Time contact = end;
+  for (const Time look : looks) {
+    const Time t = std::min(end, look);
+    if ((answer.witness && t == end) || !InContact(t, answer)) continue;
+    contact = t;
+    break;
+  }
+  if (!answer.witness) return end;
+  for (Time free = from; contact - free > shortest;) {
+    const Time middle = free + (contact - free) / 2;
+    (InContact(middle, answer) ? contact : free) = middle;
+  }
+  return contact;
 }
 
 Duration MotionCheck::LongestSpan() const {
@@ -133,15 +149,17 @@ Duration MotionCheck::ShortestSpan() const {
 MotionCheck::Stop MotionCheck::FirstStop(const TimeSpan& span) const {
   Stop stop;
   for (const MovingPart& part : leg_.parts) {
-    StopAtStatic(part, span, stop);
-    if (!scene_.objects.empty()) StopAtObjects(part, span, stop);
+    const MovingPart::Passage passage = part.During(span);
+    StopAtStatic(part, passage, stop);
+    if (!scene_.objects.empty()) StopAtObjects(part, passage, stop);
   }
   if (options_.unknown == UnknownPolicy::kTolerated) StopAtUnknownShare(span, stop);
   return stop;
 }
 
-void MotionCheck::StopAtStatic(const MovingPart& part, const TimeSpan& span, Stop& stop) const {
-  const auto [bare, slack_m] = part.InWorld(span, 0);
+void MotionCheck::StopAtStatic(const MovingPart& part, const MovingPart::Passage& passage,
+                               Stop& stop) const {
+  const auto [bare, slack_m] = part.InWorld(passage, 0);
   stop.Add(LeaveBounds(bounds_W_, bare).share, slack_m);
   Sweep sweep = bare;
   sweep.margin_m += options_.padding_m;
@@ -166,7 +184,7 @@ void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) const {
   Stop touched = stop;
   std::vector<LooseShape> shapes;
   for (const MovingPart& part : leg_.parts) {
-    const auto [bare, slack_m] = part.InWorld(span, 0);
+    const auto [bare, slack_m] = part.InWorld(part.During(span), 0);
     touched.Add(TouchUnobserved(map_W, options_.known_free_W, bare, touched.until(),
                                 context_.check.cancelled)
                     .share,
@@ -182,13 +200,18 @@ void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) const {
   }
 }
 
-void MotionCheck::StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const {
-  const Aabb box_W = part.InWorld(span, options_.padding_m).sweep.Box();
-  context_.index.ForEachNear(box_W, WorldTime(span.from), WorldTime(span.until),
+void MotionCheck::StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage,
+                                Stop& stop) const {
+  const Aabb box_W = part.InWorld(passage, options_.padding_m).sweep.Box();
+  MovingBall ball = part.BallAround(passage, options_.padding_m);
+  ball.from = WorldTime(ball.from);
+  ball.until = WorldTime(ball.until);
+  context_.index.ForEachNear(box_W, ball.from, ball.until, options_.inflation_mps,
                              [&](std::size_t i) {
                                const MovingObject& object = *scene_.objects[i];
                                if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
-                               StopAtObject(part, span, i, stop);
+                               if (!context_.index.MayMeet(i, ball, options_.inflation_mps)) return;
+                               StopAtObject(part, passage, i, stop);
                              });
 }
 
@@ -198,8 +221,9 @@ ObjectPiece MotionCheck::PieceOf(const MovingObject& object, Time from, Time unt
   return at ? HeldAt(object, *at, until, horizon) : PieceFrom(object, from, until, horizon);
 }
 
-void MotionCheck::StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t i,
-                               Stop& stop) const {
+void MotionCheck::StopAtObject(const MovingPart& part, const MovingPart::Passage& passage,
+                               std::size_t i, Stop& stop) const {
+  const TimeSpan& span = passage.span;
   const MovingObject& object = *scene_.objects[i];
   const auto all = static_cast<double>((span.until - span.from).count());
   for (Time from = span.from; from < span.until;) {
@@ -212,15 +236,17 @@ void MotionCheck::StopAtObject(const MovingPart& part, const TimeSpan& span, std
     if (until < 0) return;
     const double margin_m =
         options_.padding_m + InflationOf(object, WorldTime(during.until), options_);
+    const bool all_of_it = during.from == span.from && during.until == span.until;
+    const MovingPart::Passage meanwhile = all_of_it ? passage : part.During(during);
     if (piece.beyond_horizon) {
-      const auto [sweep, slack_m] = part.InWorld(during, margin_m);
+      const auto [sweep, slack_m] = part.InWorld(meanwhile, margin_m);
       const FirstTouch touch =
           TouchBall(piece.T_W_O.translation, piece.RadiusAt(during.until), sweep, until);
       stop.Add(begins + lasts * touch.share, slack_m);
       continue;
     }
     if (object.solid->box_O.Empty()) continue;
-    const auto [sweep, slack_m] = part.InObject(piece, during, margin_m);
+    const auto [sweep, slack_m] = part.InObject(meanwhile, piece, margin_m);
     const ShapeGeometry* const hull = context_.hulls[i].get();
     const FirstTouch touch = hull != nullptr ? TouchHull(*hull, sweep, until)
                                              : TouchOccupied(object.map_O, sweep, until);

@@ -19,7 +19,7 @@ namespace clearway {
 struct MotionContext {
   const CheckContext& check;  // for states
   const ObjectHulls& hulls;
-  const ObjectIndex& index;  // for all times of the batch
+  const ObjectIndex& index;
   const MotionOptions& options;
 };
 
@@ -56,14 +56,15 @@ class MotionCheck {
               const double* deviations_m);
   // Whether the leg is free; else the answer is complete.
   bool Prove(MotionAnswer& answer);
+  Time EarliestContact(const TimeSpan& span, double slack_m, Time end, MotionAnswer& answer);
   Duration LongestSpan() const;
   Duration ShortestSpan() const;
   Stop FirstStop(const TimeSpan& span) const;
-  void StopAtStatic(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  void StopAtStatic(const MovingPart& part, const MovingPart::Passage& passage, Stop& stop) const;
   void StopAtUnknownShare(const TimeSpan& span, Stop& stop) const;
-  void StopAtObjects(const MovingPart& part, const TimeSpan& span, Stop& stop) const;
+  void StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage, Stop& stop) const;
   ObjectPiece PieceOf(const MovingObject& object, Time from, Time until) const;
-  void StopAtObject(const MovingPart& part, const TimeSpan& span, std::size_t object,
+  void StopAtObject(const MovingPart& part, const MovingPart::Passage& passage, std::size_t object,
                     Stop& stop) const;
   // When the world is as it is at `t`.
   Time WorldTime(Time t) const { return context_.options.world_at.value_or(t); }

@@ -39,22 +39,33 @@ LooseSweep MovingPart::SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vecto
           slack_m};
 }
 
-LooseSweep MovingPart::InWorld(const TimeSpan& span, double margin_m) const {
+MovingPart::Passage MovingPart::During(const TimeSpan& span) const {
   const double seconds = span.seconds();
-  const double strays_m = center_mps2_ * seconds * seconds / 8;
-  const double turns_m = radius_m_ * motion_->spin_radps() * seconds / 2;
-  return SweepOf(LinkAt(span.from) * center_L_, LinkAt(span.until) * center_L_,
-                 LinkAt(span.Middle()).rotation, margin_m, strays_m + turns_m);
+  return {span,
+          LinkAt(span.from) * center_L_,
+          LinkAt(span.until) * center_L_,
+          LinkAt(span.Middle()).rotation,
+          center_mps2_ * seconds * seconds / 8,
+          turning_mps() * seconds / 2};
+}
+
+LooseSweep MovingPart::InWorld(const Passage& passage, double margin_m) const {
+  return SweepOf(passage.from_W, passage.until_W, passage.R_W_L, margin_m,
+                 passage.strays_m + passage.turns_m);
+}
+
+MovingBall MovingPart::BallAround(const Passage& passage, double margin_m) const {
+  return {passage.span.from, passage.span.until, passage.from_W, passage.until_W,
+          0.5 * geometry_->box_G().Size().norm() + passage.strays_m + deviation_m_ + margin_m};
 }
 
 // As seen from O, which turns by w, a point at p moves with the acceleration of both, Coriolis' of
 // twice w times its speed, and the centrifugal one of w squared times its distance.
-LooseSweep MovingPart::InObject(const ObjectPiece& object, const TimeSpan& span,
+LooseSweep MovingPart::InObject(const Passage& passage, const ObjectPiece& object,
                                 double margin_m) const {
-  const Pose T_O_W_from = Inverse(object.At(span.from)),
-             T_O_W_until = Inverse(object.At(span.until));
-  const Eigen::Vector3d from_O = T_O_W_from * (LinkAt(span.from) * center_L_);
-  const Eigen::Vector3d until_O = T_O_W_until * (LinkAt(span.until) * center_L_);
+  const TimeSpan& span = passage.span;
+  const Eigen::Vector3d from_O = Inverse(object.At(span.from)) * passage.from_W;
+  const Eigen::Vector3d until_O = Inverse(object.At(span.until)) * passage.until_W;
   const double seconds = span.seconds();
   const Twist& velocity_O = object.velocity_O;
   const double spin_radps = velocity_O.angular.norm();
@@ -63,10 +74,9 @@ LooseSweep MovingPart::InObject(const ObjectPiece& object, const TimeSpan& span,
   const double acceleration = center_mps2_ + velocity_O.angular.cross(velocity_O.linear).norm() +
                               2 * spin_radps * apart_mps + spin_radps * spin_radps * apart_m;
   const double strays_m = acceleration * seconds * seconds / 8;
-  const double turns_m = radius_m_ * (motion_->spin_radps() + spin_radps) * seconds / 2;
+  const double turns_m = passage.turns_m + radius_m_ * spin_radps * seconds / 2;
   const Eigen::Quaterniond R_O_W = object.At(span.Middle()).rotation.conjugate();
-  return SweepOf(from_O, until_O, R_O_W * LinkAt(span.Middle()).rotation, margin_m,
-                 strays_m + turns_m);
+  return SweepOf(from_O, until_O, R_O_W * passage.R_W_L, margin_m, strays_m + turns_m);
 }
 
 }  // namespace clearway

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "clearway/base/time.h"
+#include "clearway/scene/object_index.h"
 #include "collision/link_motion.h"
 #include "collision/object_motion_piece.h"
 #include "collision/robot_geometry.h"
@@ -44,10 +45,21 @@ class MovingPart {
   // Of any point, seen from the centre: at most.
   double turning_mps() const { return radius_m_ * motion_->spin_radps(); }
 
-  // In W, for a span of the leg; margin_m is what is asked for.
-  LooseSweep InWorld(const TimeSpan& span, double margin_m) const;
+  // What a span of the leg is, whatever it is seen from.
+  struct Passage {
+    TimeSpan span;
+    Eigen::Vector3d from_W, until_W;  // the centre
+    Eigen::Quaterniond R_W_L;         // in the middle
+    double strays_m, turns_m;         // seen from W
+  };
+  Passage During(const TimeSpan& span) const;
+
+  // In W; margin_m is what is asked for.
+  LooseSweep InWorld(const Passage& passage, double margin_m) const;
   // In the frame O of an object that moves alike all the while.
-  LooseSweep InObject(const ObjectPiece& object, const TimeSpan& span, double margin_m) const;
+  LooseSweep InObject(const Passage& passage, const ObjectPiece& object, double margin_m) const;
+  // Holds all of it.
+  MovingBall BallAround(const Passage& passage, double margin_m) const;
 
  private:
   Pose LinkAt(Time t) const { return motion_->At(ToSeconds(t - leg_.from) / leg_.seconds()); }

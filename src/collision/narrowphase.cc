@@ -3,11 +3,13 @@
 #include <fcl/geometry/shape/box.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "clearway/geometry/hull.h"
+#include "collision/body_contact.h"
 #include "collision/closed_form.h"
 #include "collision/contact_if_thrown.h"
 #include "collision/fcl_bodies.h"
@@ -33,6 +35,19 @@ std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse,
 
 Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
 
+const Eigen::Vector3d& FarthestOf(const std::vector<Eigen::Vector3d>& points,
+                                  const Eigen::Vector3d& direction) {
+  std::size_t index = 0;
+  double farthest = direction.dot(points[0]);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double far = direction.dot(points[i]);
+    if (far <= farthest) continue;
+    farthest = far;
+    index = i;
+  }
+  return points[index];
+}
+
 }  // namespace
 
 struct ShapeGeometry::Fcl {
@@ -44,6 +59,30 @@ ShapeGeometry::ShapeGeometry(const Shape& shape, Reuse reuse, const MeshBudget& 
       box_G_(BoundingBox(shape)),
       prepared_(Prepare(shape, reuse, budget)),
       fcl_(std::make_shared<const Fcl>(Fcl{ToFcl(shape)})) {}
+
+double ShapeGeometry::core_radius_m() const {
+  if (const auto* sphere = std::get_if<Sphere>(&shape_)) return sphere->radius_m;
+  const auto* capsule = std::get_if<Capsule>(&shape_);
+  return capsule != nullptr ? capsule->radius_m : 0;
+}
+
+Eigen::Vector3d ShapeGeometry::FarthestOfCore(const Eigen::Vector3d& direction_G) const {
+  if (std::holds_alternative<Sphere>(shape_)) return Eigen::Vector3d::Zero();
+  if (prepared_) return prepared_->Farthest(direction_G);
+  if (const auto* polytope = std::get_if<ConvexPolytope>(&shape_)) {
+    return FarthestOf(polytope->mesh->vertices, direction_G);
+  }
+  Eigen::Vector3d farthest = box_G_.max;
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape_)) {
+    farthest.head<2>() = cylinder->radius_m * direction_G.head<2>().normalized();
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape_)) {
+    farthest = {0, 0, 0.5 * capsule->length_m};
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest[axis] = std::copysign(farthest[axis], direction_G[axis]);
+  }
+  return farthest;
+}
 
 PlacedShape::PlacedShape(const ShapeGeometry& geometry, const Pose& T_F_G)
     : geometry_(&geometry),
@@ -155,6 +194,16 @@ double PlacedShape::DistanceTo(const Aabb& box_F, double up_to_m) const {
     return Distance({geometry_->fcl().geometry.get(), Placement(R_F_G_, origin_F() - center_F),
                      &box, Eigen::Isometry3d::Identity()});
   });
+}
+
+bool PlacedShape::MeetsHull(const ShapeGeometry& hull, const Pose& T_F_H, double margin_m) const {
+  const Eigen::Matrix3d R_F_H = T_F_H.rotation.toRotationMatrix();
+  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
+    return R_F_H * hull.FarthestOfCore(R_F_H.transpose() * direction_F) + T_F_H.translation;
+  };
+  const Eigen::Vector3d center_F = T_F_H * hull.box_G().Center();
+  const std::optional<bool> meets = Meets(*this, {farthest_F, center_F}, margin_m);
+  return meets ? *meets : DistanceToHull(hull, T_F_H, margin_m) <= margin_m;
 }
 
 double PlacedShape::DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H,

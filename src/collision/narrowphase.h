@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/pose.h"
@@ -30,6 +31,11 @@ class ShapeGeometry {
 
   // Of every mesh, and of hulls that are worth it; null for the others.
   const PreparedMesh* prepared() const { return prepared_.get(); }
+
+  // The shape lies in the convex hull of its core, grown by this radius; all but meshes fill it.
+  double core_radius_m() const;
+  Eigen::Vector3d FarthestOfCore(const Eigen::Vector3d& direction_G) const;
+  bool convex() const { return !std::holds_alternative<TriangleMesh>(shape_); }
 
   struct Fcl;  // FCL's form of the shape
   const Fcl& fcl() const { return *fcl_; }
@@ -68,6 +74,11 @@ class PlacedShape {
 
   const Aabb& box_F() const { return box_F_; }  // the smallest
   Eigen::Vector3d Center_F() const { return R_F_G_ * geometry_->box_G().Center() + origin_F(); }
+  const ShapeGeometry& geometry() const { return *geometry_; }
+  const Eigen::Matrix3d& R_F_G() const { return R_F_G_; }
+  Eigen::Vector3d FarthestOfCore(const Eigen::Vector3d& direction_F) const {
+    return R_F_G_ * geometry_->FarthestOfCore(R_F_G_.transpose() * direction_F) + origin_F();
+  }
   // The same body, seen from another frame.
   PlacedShape In(const Pose& T_A_F) const { return {*geometry_, T_A_F * T_F_G_}; }
   bool Contains(const Eigen::Vector3d& p_F) const;
@@ -87,13 +98,14 @@ class PlacedShape {
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
   // `hull` is that of a ConvexPolytope, at T_F_H. Above up_to_m it is still at most the distance.
   double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
+  // Whether the distance is at most margin_m.
+  bool MeetsHull(const ShapeGeometry& hull, const Pose& T_F_H, double margin_m) const;
   double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
 
  private:
   const Eigen::Vector3d& origin_F() const { return T_F_G_.translation; }
   Aabb TightBox() const;
   double LowerBound(const Aabb& box_F) const;
-
   const ShapeGeometry* geometry_;
   Pose T_F_G_;
   Eigen::Matrix3d R_F_G_;

@@ -38,7 +38,8 @@ ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
 
 const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
   wanted_.clear();
-  index_.ForEachNear(box_W, t, [&](std::size_t index) { wanted_.push_back(index); });
+  index_.ForEachNear(box_W, t, t, options_.inflation_mps,
+                     [&](std::size_t index) { wanted_.push_back(index); });
   if (t == time_ && wanted_ == looked_at_) return placed_;
   time_ = t;
   looked_at_ = wanted_;
@@ -69,8 +70,9 @@ std::optional<PlacedObject> ObjectPlacer::Place(std::size_t index, Time t) const
 }
 
 bool Touches(const PlacedObject& placed, const PlacedShape& shape_W, double padding_m) {
-  if (placed.ball_radius_m || placed.hull != nullptr) {
-    return DistanceTo(placed, shape_W, padding_m) <= padding_m;
+  if (placed.ball_radius_m) return DistanceTo(placed, shape_W, padding_m) <= padding_m;
+  if (placed.hull != nullptr) {
+    return shape_W.MeetsHull(*placed.hull, placed.T_W_O, padding_m + placed.margin_m);
   }
   return TouchesOccupied(placed.object->map_O, shape_W.In(placed.T_O_W),
                          padding_m + placed.margin_m);

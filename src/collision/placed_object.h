@@ -35,27 +35,21 @@ struct PlacedObject {
 // time. One thread. Refers to what it is made of.
 class ObjectPlacer {
  public:
-  // For times in [first, last].
-  ObjectPlacer(const SceneSnapshot& scene, const ObjectHulls& hulls, const CheckOptions& options,
-               Time first, Time last)
-      : scene_(scene),
-        hulls_(hulls),
-        options_(options),
-        index_(scene, first, last, options.inflation_mps) {}
+  ObjectPlacer(const SceneSnapshot& scene, const ObjectHulls& hulls, const ObjectIndex& index,
+               const CheckOptions& options)
+      : scene_(scene), hulls_(hulls), index_(index), options_(options) {}
 
   // The objects that may meet the box at `t` and are not ignored, by ascending ids, and perhaps a
   // few others. Valid until the next call.
   const std::vector<PlacedObject>& Near(const Aabb& box_W, Time t);
-
-  const ObjectIndex& index() const { return index_; }
 
  private:
   std::optional<PlacedObject> Place(std::size_t index, Time t) const;
 
   const SceneSnapshot& scene_;
   const ObjectHulls& hulls_;
+  const ObjectIndex& index_;
   const CheckOptions& options_;
-  ObjectIndex index_;
   Time time_;                        // of what follows
   std::vector<std::size_t> wanted_;  // by the last call
   std::vector<std::size_t> looked_at_;

@@ -33,6 +33,13 @@ class PreparedMesh {
 
   // The smallest box around the mesh, turned into a frame F. Its origin is G's.
   Aabb BoxTurned(const Eigen::Matrix3d& R_F_G) const { return extreme_.BoxTurned(R_F_G); }
+  // The point farthest in a direction of the mesh, or of what is known to hold it.
+  const Eigen::Vector3d& Farthest(const Eigen::Vector3d& direction_G) const {
+    return extreme_.Farthest(direction_G);
+  }
+
+  const TriangleTree& tree() const { return tree_; }
+  bool closed() const { return winding_.closed(); }
 
   // What is known of a point at once.
   DistanceGrid::Surroundings Around(const Eigen::Vector3d& p_G) const { return grid_.At(p_G); }

@@ -1,6 +1,5 @@
 #include "clearway/collision/scene_checker.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "collision/motion_check.h"
@@ -9,14 +8,24 @@
 #include "collision/validation.h"
 
 namespace clearway {
+namespace {
+
+// Of the time for which there are predictions.
+constexpr int kTimeSlices = 8;
+
+}  // namespace
+
 struct SceneChecker::Impl {
   ScenePtr scene;
   std::shared_ptr<const PreparedRobot> robot;
   ObjectHulls hulls;
+  ObjectIndex index;
 };
 
 SceneChecker::SceneChecker(ScenePtr scene, std::shared_ptr<const PreparedRobot> robot)
-    : impl_(std::make_unique<const Impl>(Impl{scene, std::move(robot), PrepareHulls(*scene)})) {}
+    : impl_(std::make_unique<const Impl>(Impl{
+          scene, std::move(robot), PrepareHulls(*scene),
+          ObjectIndex(*scene, scene->stamp, scene->stamp + scene->params.horizon, kTimeSlices)})) {}
 
 SceneChecker::SceneChecker(ScenePtr scene, Robot robot)
     : SceneChecker(std::move(scene), std::make_shared<const PreparedRobot>(std::move(robot))) {}
@@ -36,9 +45,7 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
                                                             options.allowed_contacts.end());
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
-  if (states.times.empty()) return reply;
-  const auto [first, last] = std::minmax_element(states.times.begin(), states.times.end());
-  ObjectPlacer objects(*impl_->scene, impl_->hulls, options, *first, *last);
+  ObjectPlacer objects(*impl_->scene, impl_->hulls, impl_->index, options);
   const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
   StateCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
@@ -62,14 +69,11 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
   const SceneSnapshot& scene = *impl_->scene;
   MotionReply reply{version(), stamp(), scene.params.horizon, {}};
   reply.answers.resize(motions.knot_counts.size());
-  if (motions.times.empty()) return reply;
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
                                                             options.check.allowed_contacts.end());
-  const auto [first, last] = std::minmax_element(motions.times.begin(), motions.times.end());
-  ObjectPlacer objects(scene, impl_->hulls, options.check, options.world_at.value_or(*first),
-                       options.world_at.value_or(*last));
+  ObjectPlacer objects(scene, impl_->hulls, impl_->index, options.check);
   const CheckContext states{scene, options.check, allowed_contacts, objects, cancelled};
-  const MotionContext context{states, impl_->hulls, objects.index(), options};
+  const MotionContext context{states, impl_->hulls, impl_->index, options};
   MotionCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
   std::size_t knot = 0;

@@ -1,11 +1,11 @@
 // How far a shape goes until it touches something.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "clearway/map/voxel_map.h"
+#include "collision/advance.h"
 #include "collision/narrowphase.h"
 #include "collision/voxel_search.h"
 
@@ -28,7 +28,6 @@ struct Sweep {
 
 // Where on its way a shape may touch something first: a share of the way, from 0 to 1. Before that
 // it certainly does not. kNever: nowhere.
-inline constexpr double kNever = std::numeric_limits<double>::infinity();
 struct FirstTouch {
   double share = kNever;
   std::optional<VoxelKey> voxel;  // the one that is touched, if it is one

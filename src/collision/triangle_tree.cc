@@ -89,8 +89,9 @@ void TriangleTree::Build(std::uint32_t node, std::uint32_t first, std::uint32_t 
 
 // Depth first, the nearer child before the other.
 template <class Bound, class Measure>
-TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
-                                          const Measure& measure, std::uint64_t most_visits) const {
+TriangleTree::Nearest TriangleTree::Search(double up_to_m, const Bound& bound,
+                                           const Measure& measure,
+                                           std::uint64_t most_visits) const {
   struct Open {
     double bound_m;
     std::uint32_t node;
@@ -99,7 +100,7 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
   std::size_t size = 0;
   double limit_m = up_to_m;
   Nearest nearest{kFar, 0, 0, 0};
-  open[size++] = {bound(nodes_[0]), 0};
+  open[size++] = {bound(nodes_[0], limit_m), 0};
   while (size > 0 && nearest.visits < most_visits) {
     const Open next = open[--size];
     if (next.bound_m > limit_m) continue;
@@ -113,8 +114,8 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
       if (distance_m <= 0) return nearest;
     }
     if (node.count > 0) continue;
-    Open near{bound(nodes_[node.first]), node.first};
-    Open far{bound(nodes_[node.first + 1]), node.first + 1};
+    Open near{bound(nodes_[node.first], limit_m), node.first};
+    Open far{bound(nodes_[node.first + 1], limit_m), node.first + 1};
     if (far.bound_m < near.bound_m) std::swap(near, far);
     if (far.bound_m <= limit_m) open[size++] = far;
     if (near.bound_m <= limit_m) open[size++] = near;
@@ -126,9 +127,9 @@ TriangleTree::Nearest TriangleTree::Least(double up_to_m, const Bound& bound,
 
 TriangleTree::Nearest TriangleTree::NearestTo(const Eigen::Vector3d& p_G, double up_to_m,
                                               std::uint64_t most_visits) const {
-  return Least(
+  return Search(
       up_to_m,
-      [&](const Node& node) {
+      [&](const Node& node, double) {
         return ((p_G - node.center_G).cwiseAbs() - node.half_m).cwiseMax(0.0).norm();
       },
       [&](const Triangle& t, double) { return PointTriangleDistance(p_G, t.a, t.b, t.c); },
@@ -136,9 +137,14 @@ TriangleTree::Nearest TriangleTree::NearestTo(const Eigen::Vector3d& p_G, double
 }
 
 TriangleTree::Nearest TriangleTree::NearestTo(const OrientedBox& box, double up_to_m) const {
-  return Least(
-      up_to_m, [&](const Node& node) { return GapBetween(node, box); },
+  return Search(
+      up_to_m, [&](const Node& node, double) { return GapBetween(node, box); },
       [&](const Triangle& t, double limit_m) { return Distance(t, box, limit_m); });
+}
+
+double TriangleTree::Least(double limit, absl::FunctionRef<double(const Node&, double limit)> bound,
+                           absl::FunctionRef<double(const Triangle&, double limit)> measure) const {
+  return Search(limit, bound, measure).distance_m;
 }
 
 bool TriangleTree::Meets(const OrientedBox& box) const {

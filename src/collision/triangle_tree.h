@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "clearway/geometry/shape.h"
 #include "collision/triangle_box.h"
 
@@ -53,6 +54,12 @@ class TriangleTree {
   Nearest NearestTo(const OrientedBox& box, double up_to_m) const;
   bool Meets(const OrientedBox& box) const;
 
+  // The least of what `measure` gives for the triangles, infinite if none gives up to `limit`.
+  // `bound` gives no more than that for any triangle in a node's box. Both need not tell values
+  // above the limit they are given.
+  double Least(double limit, absl::FunctionRef<double(const Node&, double limit)> bound,
+               absl::FunctionRef<double(const Triangle&, double limit)> measure) const;
+
  private:
   static constexpr std::uint32_t kLeafSize = 4;
   static constexpr int kMaxDepth = 40;  // halves of 2^32 triangles, and some to spare
@@ -60,8 +67,8 @@ class TriangleTree {
   void Build(std::uint32_t node, std::uint32_t first, std::uint32_t last,
              const std::vector<Triangle>& all);
   template <class Bound, class Measure>
-  Nearest Least(double up_to_m, const Bound& bound, const Measure& measure,
-                std::uint64_t most_visits = kNoLimit) const;
+  Nearest Search(double up_to_m, const Bound& bound, const Measure& measure,
+                 std::uint64_t most_visits = kNoLimit) const;
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;

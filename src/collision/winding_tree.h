@@ -31,6 +31,7 @@ class WindingTree {
   // What the mesh has for a boundary, corners at the same place taken for one; empty if it is
   // closed.
   std::vector<Edge> Boundary() const;
+  bool closed() const { return boundary_.empty(); }
 
  private:
   // An edge between two vertices that a surface has on its boundary, that many times from the lower

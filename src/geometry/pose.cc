@@ -69,6 +69,7 @@ Pose Inverse(const Pose& T_A_B) {
 Pose Exp(const Twist& displacement) {
   const Eigen::Vector3d& w = displacement.angular;
   const double angle2 = w.squaredNorm();
+  if (angle2 == 0) return {Eigen::Quaterniond::Identity(), displacement.linear};
   const double angle = std::sqrt(angle2);
   const bool small = angle < kSmallAngle;
   const double half_sinc = small ? 0.5 - angle2 / 48.0 : std::sin(angle / 2) / angle;

@@ -31,22 +31,11 @@ double RadiusOf(const MovingObject& object) {
                                  FarthestCorner_m(object.solid->box_O), object.solid->radius_m});
 }
 
-// A box round everything of the object from `first` to `last`. From t_k on the origin moves at a
-// constant speed along a screw, before t_k between the poses of the history.
-Aabb ReachOf(const MovingObject& object, Time first, Time last, double inflation_mps) {
-  const StampedPose& newest = object.history.back();
-  Aabb origins_W{newest.T_W_O.translation, newest.T_W_O.translation};
-  if (first < newest.stamp) origins_W.Extend(OriginsOf(object.history));
-  const double ahead_s = std::max(0.0, ToSeconds(last - newest.stamp));
-  return origins_W.Padded(RadiusOf(object) + ahead_s * (object.SpeedMps() + inflation_mps));
-}
-
 }  // namespace
 
 // Along a screw the origin's velocity turns: its acceleration is the angular velocity's cross
 // product with it, of the same length at all times.
-ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horizon,
-                                      double inflation_mps) {
+ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horizon) {
   const StampedPose& newest = object.history.back();
   const Twist velocity_O = object.velocity_O.value_or(Twist{});
   Ball ball;
@@ -57,30 +46,71 @@ ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horiz
   ball.horizon_s = ToSeconds(horizon);
   ball.bend_mps2 = 0.5 * velocity_O.angular.cross(velocity_O.linear).norm();
   ball.beyond_mps = object.SpeedMps();
-  ball.inflation_mps = inflation_mps;
   return ball;
 }
 
-ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, double inflation_mps)
-    : words_((scene.objects.size() + 63) / 64) {
-  std::vector<Aabb> reaches_W;
-  for (const auto& object : scene.objects) {
-    balls_.push_back(BallOf(*object, scene.params.horizon, inflation_mps));
-    reaches_W.push_back(ReachOf(*object, first, last, inflation_mps));
-    box_W_.Extend(reaches_W.back());
+// A box round everything of the object from `first` to `last`. Before t_k it moves between the
+// poses of the history.
+Aabb ObjectIndex::ReachOf(const MovingObject& object, const Ball& ball, Time first, Time last) {
+  Aabb reach_W;
+  if (first < ball.t_k) reach_W = OriginsOf(object.history).Padded(ball.radius_m);
+  if (last >= ball.t_k) {
+    const auto [center_W, radius_m] = ball.During(std::max(first, ball.t_k), last, 0);
+    reach_W.Extend(Aabb{center_W, center_W}.Padded(radius_m));
   }
-  if (reaches_W.empty()) return;
-  low_ = box_W_.min;
-  cells_per_m_ = kCells * (box_W_.max - box_W_.min).cwiseMax(1e-3).cwiseInverse();
+  return reach_W;
+}
+
+void ObjectIndex::Mark(std::size_t object, int slice, const Aabb& reach_W) {
   for (int axis = 0; axis < 3; ++axis) {
-    cells_[axis].assign(kCells * words_, 0);
-    for (std::size_t i = 0; i < reaches_W.size(); ++i) {
-      const int to = CellOf(axis, reaches_W[i].max[axis]);
-      for (int cell = CellOf(axis, reaches_W[i].min[axis]); cell <= to; ++cell) {
-        cells_[axis][cell * words_ + i / 64] |= std::uint64_t{1} << i % 64;
-      }
+    const int to = CellOf(axis, reach_W.max[axis]);
+    for (int cell = CellOf(axis, reach_W.min[axis]); cell <= to; ++cell) {
+      cells_[axis][WordOf(slice, cell, object / 64)] |= std::uint64_t{1} << object % 64;
     }
   }
+}
+
+ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int slices)
+    : first_(first),
+      last_(last),
+      slice_(std::max(Duration(1), (last - first) / slices)),
+      slices_(slices),
+      words_((scene.objects.size() + 63) / 64) {
+  if (words_ == 0) return;
+  std::vector<Aabb> reaches_W;  // slice by slice
+  for (const auto& object : scene.objects) {
+    balls_.push_back(BallOf(*object, scene.params.horizon));
+    oldest_t_k_ = std::min(oldest_t_k_, object->t_k());
+  }
+  for (int slice = 0; slice < slices; ++slice) {
+    const Time from = first + slice * slice_;
+    const Time until = slice + 1 < slices ? from + slice_ : last;
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+      reaches_W.push_back(ReachOf(*scene.objects[i], balls_[i], from, until));
+      box_W_.Extend(reaches_W.back());
+    }
+  }
+  low_ = box_W_.min;
+  cells_per_m_ = kCells * (box_W_.max - box_W_.min).cwiseMax(1e-3).cwiseInverse();
+  for (auto& axis : cells_) axis.assign(slices * kCells * words_, 0);
+  for (std::size_t i = 0; i < reaches_W.size(); ++i) {
+    Mark(i % balls_.size(), static_cast<int>(i / balls_.size()), reaches_W[i]);
+  }
+}
+
+// Seen from the object, the ball's centre goes straight: on one side of the horizon its own does.
+bool ObjectIndex::MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const {
+  const Ball& own = balls_[object];
+  const double since_s = ToSeconds(ball.from - own.t_k), until_s = ToSeconds(ball.until - own.t_k);
+  if (since_s < 0 || (since_s < own.horizon_s && until_s > own.horizon_s)) return true;
+  const Ball::Reach begins = own.During(ball.from, ball.from, inflation_mps);
+  const Ball::Reach ends = own.During(ball.until, ball.until, inflation_mps);
+  const Eigen::Vector3d apart_W = ball.from_W - begins.center_W;
+  const Eigen::Vector3d way_W = ball.until_W - ends.center_W - apart_W;
+  const double squared = way_W.squaredNorm();
+  const double share = squared > 0 ? std::clamp(-apart_W.dot(way_W) / squared, 0.0, 1.0) : 0;
+  const double reach_m = ball.radius_m + std::max(begins.radius_m, ends.radius_m);
+  return (apart_W + share * way_W).squaredNorm() <= reach_m * reach_m;
 }
 
 }  // namespace clearway

@@ -98,13 +98,19 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
     const double first_s = random.Uniform(-2, 1), last_s = first_s + random.Uniform(0, 2);
     const double inflation_mps = random.Uniform(0, 1);
     const ObjectIndex dut(*scene, scene->stamp + FromSeconds(first_s),
-                          scene->stamp + FromSeconds(last_s), inflation_mps);
+                          scene->stamp + FromSeconds(last_s), 1 + i % 5);
     for (int k = 0; k < 200; ++k) {
       const Eigen::Vector3d corner_W = random.Vector(12);
       const Aabb box_W{corner_W, corner_W + Eigen::Vector3d::Constant(random.Uniform(0, 2))};
-      const Time time = scene->stamp + FromSeconds(random.Uniform(first_s, last_s));
+      const double before_s = k % 8 == 0 ? 1 : 0;  // also outside
+      const Time time =
+          scene->stamp + FromSeconds(random.Uniform(first_s - before_s, last_s + before_s));
+      const double long_s = k % 4 == 0 ? random.Uniform(0, 0.5) : 0;
+      const double begins = random.Uniform(0, 1);
       std::vector<std::size_t> visited;
-      dut.ForEachNear(box_W, time, [&](std::size_t object) { visited.push_back(object); });
+      dut.ForEachNear(box_W, time - FromSeconds(begins * long_s),
+                      time + FromSeconds((1 - begins) * long_s), inflation_mps,
+                      [&](std::size_t object) { visited.push_back(object); });
       EXPECT_TRUE(std::is_sorted(visited.begin(), visited.end()));
       const SceneAtTime placed(*scene, time);
       for (std::size_t object = 0; object < scene->objects.size(); ++object) {

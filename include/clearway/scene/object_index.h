@@ -11,37 +11,42 @@
 
 namespace clearway {
 
+// A ball that goes straight, at a constant speed, from one place to another. A value.
+struct MovingBall {
+  Time from, until;
+  Eigen::Vector3d from_W, until_W;  // its centre
+  double radius_m;
+};
+
 // The objects of a snapshot, wherever they may be in an interval of time: a query asks for those
 // near a box and gets nearly all others spared. Immutable; any thread may read it.
 //
-// Each axis is cut into cells, and a cell holds one bit for each object that may reach into it: the
-// objects near a box are those with a bit in its cells on all three axes. For those, a ball round
-// where the object is at the time is asked.
+// The interval is cut into slices, and space along each axis into cells. A cell holds one bit for
+// each object that may reach into it within a slice: the objects near a box are those with a bit in
+// its cells on all three axes. For those, a ball round where the object is at the time is asked.
 class ObjectIndex {
  public:
-  // Counts what an object observed, its solid, its swept bound beyond the horizon, and
-  // inflation_mps times the seconds since its t_k.
-  ObjectIndex(const SceneSnapshot& scene, Time first, Time last, double inflation_mps = 0);
+  // Counts what an object observed, its solid and its swept bound beyond the horizon. More slices
+  // spare more and take longer to make.
+  ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int slices = 1);
 
-  // Calls visit(i) for the objects scene.objects[i] that may meet the box at `time`, which lies in
-  // the interval, in ascending order; there may be a few that do not.
+  // Calls visit(i) for the objects scene.objects[i] that may meet the box at a time from `from` to
+  // `until` if they are grown by inflation_mps times the seconds since their t_k, in ascending
+  // order; there may be a few that do not, and more of them at times outside the interval.
+  template <class Visit>
+  void ForEachNear(const Aabb& box_W, Time from, Time until, double inflation_mps,
+                   Visit&& visit) const;
+  // The same at one time, as they are.
   template <class Visit>
   void ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const {
-    ForEachNear(box_W, time, time, visit);
+    ForEachNear(box_W, time, time, 0, visit);
   }
-  // The same for all times from `from` to `until`, which both lie in the interval.
-  template <class Visit>
-  void ForEachNear(const Aabb& box_W, Time from, Time until, Visit&& visit) const;
+
+  // Whether the object, grown likewise, may meet the ball on its way.
+  bool MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const;
 
  private:
   static constexpr int kCells = 64;
-
-  // Cells are clamped: what lies outside the objects' space meets those in the outermost cells.
-  int CellOf(int axis, double coordinate) const {
-    const double cell = (coordinate - low_[axis]) * cells_per_m_[axis];
-    return cell <= 0 ? 0 : cell >= kCells - 1 ? kCells - 1 : static_cast<int>(cell);
-  }
-  std::uint64_t BitsIn(int axis, int from, int to, std::size_t word) const;
 
   // A ball that holds an object at any time from t_k on: its centre goes straight on until the
   // horizon, from which the object's origin strays as it goes along a screw.
@@ -51,53 +56,111 @@ class ObjectIndex {
     double radius_m;                       // at t_k
     double horizon_s;
     double bend_mps2;  // the origin strays by this times the square of the time
-    double beyond_mps, inflation_mps;
+    double beyond_mps;
 
-    // In the middle of a time, or for half of it before and after. The origin is never faster
-    // than beyond the horizon.
-    bool Meets(const Aabb& box_W, Time from, Time until) const {
-      if (from < t_k) return true;
+    // Where it is in the middle of a time from t_k on, or for half of it before and after. The
+    // origin is never faster than beyond the horizon.
+    struct Reach {
+      Eigen::Vector3d center_W;
+      double radius_m;
+    };
+    Reach During(Time from, Time until, double inflation_mps) const {
       const double half_s = 0.5 * ToSeconds(until - from);
       const double since_s = ToSeconds(from - t_k) + half_s;
       const double ahead_s = std::min(since_s, horizon_s);
-      const Eigen::Vector3d center_W = origin_W + ahead_s * velocity_W;
-      const double reach_m = radius_m + ahead_s * ahead_s * bend_mps2 +
-                             (since_s - ahead_s + half_s) * beyond_mps +
-                             (since_s + half_s) * inflation_mps;
+      return {origin_W + ahead_s * velocity_W, radius_m + ahead_s * ahead_s * bend_mps2 +
+                                                   (since_s - ahead_s + half_s) * beyond_mps +
+                                                   (since_s + half_s) * inflation_mps};
+    }
+    bool Meets(const Aabb& box_W, Time from, Time until, double inflation_mps) const {
+      if (from < t_k) return true;
+      const auto [center_W, reach_m] = During(from, until, inflation_mps);
       const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
       return (nearest_W - center_W).squaredNorm() <= reach_m * reach_m;
     }
   };
-  static Ball BallOf(const MovingObject& object, Duration horizon, double inflation_mps);
 
+  static Ball BallOf(const MovingObject& object, Duration horizon);
+  static Aabb ReachOf(const MovingObject& object, const Ball& ball, Time first, Time last);
+  void Mark(std::size_t object, int slice, const Aabb& reach_W);
+
+  // Cells are clamped: what lies outside the objects' space meets those in the outermost cells.
+  int CellOf(int axis, double coordinate) const {
+    const double cell = (coordinate - low_[axis]) * cells_per_m_[axis];
+    return cell <= 0 ? 0 : cell >= kCells - 1 ? kCells - 1 : static_cast<int>(cell);
+  }
+  int SliceOf(Time t) const {
+    return std::min(slices_ - 1, static_cast<int>((t - first_) / slice_));
+  }
+  std::size_t WordOf(int slice, int cell, std::size_t word) const {
+    return (static_cast<std::size_t>(slice) * kCells + cell) * words_ + word;
+  }
+
+  // The cells a query looks at.
+  struct Range {
+    std::array<int, 2> slices;
+    std::array<std::array<int, 3>, 2> cells;  // from the first to the last on each axis
+  };
+  Range RangeOf(const Aabb& box_W, Time from, Time until) const;
+  std::uint64_t BitsIn(const Range& range, std::size_t word) const;
+  std::uint64_t AllBits(std::size_t word) const {
+    const std::size_t left = balls_.size() - word * 64;
+    return left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
+  }
+
+  Time first_, last_;
+  Duration slice_;
+  int slices_;
   std::size_t words_ = 0;  // per cell
-  Aabb box_W_;             // around all objects
+  Time oldest_t_k_ = Time::max();
+  Aabb box_W_;  // around all objects in the interval
   Eigen::Vector3d low_, cells_per_m_;
-  std::array<std::vector<std::uint64_t>, 3> cells_;  // word w of cell c is at c * words_ + w
+  std::array<std::vector<std::uint64_t>, 3> cells_;  // by WordOf
   std::vector<Ball> balls_;                          // of the objects
 };
 
-inline std::uint64_t ObjectIndex::BitsIn(int axis, int from, int to, std::size_t word) const {
-  std::uint64_t bits = 0;
-  for (int cell = from; cell <= to; ++cell) bits |= cells_[axis][cell * words_ + word];
-  return bits;
+inline ObjectIndex::Range ObjectIndex::RangeOf(const Aabb& box_W, Time from, Time until) const {
+  Range range{{SliceOf(from), SliceOf(until)}, {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    range.cells[0][axis] = CellOf(axis, box_W.min[axis]);
+    range.cells[1][axis] = CellOf(axis, box_W.max[axis]);
+  }
+  return range;
+}
+
+inline std::uint64_t ObjectIndex::BitsIn(const Range& range, std::size_t word) const {
+  std::uint64_t near = 0;
+  for (int slice = range.slices[0]; slice <= range.slices[1]; ++slice) {
+    std::uint64_t in_slice = ~std::uint64_t{0};
+    for (int axis = 0; axis < 3 && in_slice != 0; ++axis) {
+      std::uint64_t bits = 0;
+      for (int cell = range.cells[0][axis]; cell <= range.cells[1][axis]; ++cell) {
+        bits |= cells_[axis][WordOf(slice, cell, word)];
+      }
+      in_slice &= bits;
+    }
+    near |= in_slice;
+  }
+  return near;
 }
 
 template <class Visit>
-void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, Visit&& visit) const {
-  if (words_ == 0 || !box_W_.Intersects(box_W)) return;
-  std::array<int, 3> first, last;
-  for (int axis = 0; axis < 3; ++axis) {
-    first[axis] = CellOf(axis, box_W.min[axis]);
-    last[axis] = CellOf(axis, box_W.max[axis]);
+void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, double inflation_mps,
+                              Visit&& visit) const {
+  if (words_ == 0) return;
+  const bool within = from >= first_ && until <= last_;
+  Range range{};
+  if (within) {
+    const double grown_m = inflation_mps * std::max(0.0, ToSeconds(until - oldest_t_k_));
+    const Aabb grown_W = box_W.Padded(grown_m);
+    if (!box_W_.Intersects(grown_W)) return;
+    range = RangeOf(grown_W, from, until);
   }
   for (std::size_t word = 0; word < words_; ++word) {
-    std::uint64_t near = BitsIn(0, first[0], last[0], word);
-    if (near != 0) near &= BitsIn(1, first[1], last[1], word);
-    if (near != 0) near &= BitsIn(2, first[2], last[2], word);
+    std::uint64_t near = within ? BitsIn(range, word) : AllBits(word);
     for (; near != 0; near &= near - 1) {
       const std::size_t object = word * 64 + std::countr_zero(near);
-      if (balls_[object].Meets(box_W, from, until)) visit(object);
+      if (balls_[object].Meets(box_W, from, until, inflation_mps)) visit(object);
     }
   }
 }

@@ -1,38 +1,14 @@
-#include "collision/sweep.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "absl/container/inlined_vector.h"
+#include "collision/body_contact.h"
 #include "collision/cube_contact.h"
+#include "collision/sweep.h"
 
 namespace clearway {
 namespace {
-
-constexpr double kTouching_m = 1e-7;
-constexpr int kMostSteps = 24;
-// Of gaps above this part of the way it is enough to know that they are: steps of that part do. In
-// std::min the distance comes first: then what is not a number stays so.
-constexpr double kFarShare = 0.25, kLeastFar_m = 0.01;
-
-// Goes on by what is certainly free until gap_m(share), at most the gap at that share of the way,
-// is none. (Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996: conservative
-// advancement.)
-template <class Gap>
-double Advance(double length_m, double from, double until, Gap&& gap_m) {
-  double share = from;
-  for (int step = 0; step < kMostSteps; ++step) {
-    if (share > until) return kNever;
-    const double gap = gap_m(share);
-    if (!(gap > kTouching_m)) return share;  // not a number: as bad as none
-    if (gap > length_m) return kNever;       // more than is left
-    share += gap / length_m;
-  }
-  return share > until ? kNever : share;
-}
-
-Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
 
 // Among voxels, from large cubes to small ones. To move the shape is to move the cubes the other
 // way.
@@ -42,6 +18,7 @@ class Search {
       : grid_(grid),
         sweep_(sweep),
         contact_(sweep.shape_F, 0),
+        directions_(contact_.Apart(Eigen::Vector3d::Zero(), 0).has_value()),
         length_m_(sweep.way_F.norm()),
         until_(until) {}
 
@@ -90,25 +67,24 @@ class Search {
 
   // By what is quick.
   double Touched(const Eigen::Vector3d& center, double half_m) const {
+    if (directions_) {
+      return AdvanceAlong(sweep_.way_F, sweep_.margin_m, 0, until_, [&](double share) {
+        return *contact_.Apart(center - share * sweep_.way_F, half_m);
+      });
+    }
     return Advance(length_m_, 0, until_, [&](double share) {
       return contact_.DistanceTo(center - share * sweep_.way_F, half_m).least_m - sweep_.margin_m;
     });
   }
 
   void LookAt(VoxelKey key) {
-    const Eigen::Vector3d center = grid_.CenterOf(key);
-    const double half_m = 0.5 * grid_.resolution_m();
-    double share = Touched(center, half_m);
+    double share = Touched(grid_.CenterOf(key), 0.5 * grid_.resolution_m());
     if (share == kNever) return;
     const Aabb cube = grid_.BoxOf(key);
-    share = Advance(length_m_, share, until_, [&](double at) {
-      const Eigen::Vector3d by = -at * sweep_.way_F;
-      const double gap_m = contact_.Gap(center + by, half_m) - sweep_.margin_m;
-      if (gap_m > kTouching_m) return gap_m;
-      if (contact_.DistanceTo(center + by, half_m).most_m <= sweep_.margin_m) return 0.0;
-      const double up_to_m = sweep_.margin_m + length_m_;
-      return sweep_.shape_F.DistanceTo(Moved(cube, by), up_to_m) - sweep_.margin_m;
-    });
+    const auto farthest = [&](const Eigen::Vector3d& direction) -> Eigen::Vector3d {
+      return (direction.array() > 0).select(cube.max, cube.min);
+    };
+    share = FirstTouchOf(sweep_, {farthest, cube.Center()}, 0, share, until_);
     if (share == kNever) return;
     // What is hardly nearer is no news.
     const double earlier = sweep_.tolerance_m < length_m_ ? sweep_.tolerance_m / length_m_ : 1;
@@ -119,6 +95,7 @@ class Search {
   const VoxelGrid& grid_;
   const Sweep& sweep_;
   CubeContact contact_;  // without the margin
+  bool directions_;      // are known for cubes
   double length_m_;
   double until_;
   FirstTouch found_;
@@ -173,57 +150,6 @@ FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known
              return cancelled();
            });
   return search.found();
-}
-
-FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
-  const double length_m = sweep.way_F.norm();
-  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
-  return {Advance(length_m, 0, until,
-                  [&](double share) {
-                    const Aabb moved = Moved(box_F, -share * sweep.way_F);
-                    return std::min(sweep.shape_F.DistanceTo(moved, far_m), far_m) - sweep.margin_m;
-                  }),
-          std::nullopt};
-}
-
-FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until) {
-  const double length_m = sweep.way_F.norm();
-  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
-  return {Advance(length_m, 0, until,
-                  [&](double share) {
-                    const Pose moved{Eigen::Quaterniond::Identity(), -share * sweep.way_F};
-                    // What is above far_m is a bound.
-                    return sweep.shape_F.DistanceToHull(hull, moved, far_m) - sweep.margin_m;
-                  }),
-          std::nullopt};
-}
-
-FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
-                     double until) {
-  const double length_m = sweep.way_F.norm();
-  const double far_m = sweep.margin_m + std::max(kLeastFar_m, kFarShare * length_m);
-  return {Advance(length_m, 0, until,
-                  [&](double share) {
-                    const Eigen::Vector3d moved = center_F - share * sweep.way_F;
-                    return std::min(sweep.shape_F.DistanceToBall(moved, radius_m, far_m), far_m) -
-                           sweep.margin_m;
-                  }),
-          std::nullopt};
-}
-
-FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep) {
-  const Aabb box = sweep.shape_F.box_F().Padded(sweep.margin_m);
-  double share = kNever;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double way = sweep.way_F[axis];
-    const double before = box.min[axis] - bounds_F.min[axis];
-    const double behind = bounds_F.max[axis] - box.max[axis];
-    // What is not a number is out of bounds.
-    if (!(before >= 0 && behind >= 0)) return {0, std::nullopt};
-    if (!(way <= behind)) share = std::min(share, way > 0 ? behind / way : 0.0);
-    if (!(-way <= before)) share = std::min(share, way < 0 ? before / -way : 0.0);
-  }
-  return {share, std::nullopt};
 }
 
 }  // namespace clearway

@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "collision/body_contact.h"
+
+namespace clearway {
+
+FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
+  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
+    return (direction_F.array() > 0).select(box_F.max, box_F.min);
+  };
+  return {FirstTouchOf(sweep, {farthest_F, box_F.Center()}, 0, 0, until), std::nullopt};
+}
+
+FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until) {
+  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) {
+    return hull.FarthestOfCore(direction_F);
+  };
+  return {FirstTouchOf(sweep, {farthest_F, hull.box_G().Center()}, 0, 0, until), std::nullopt};
+}
+
+FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
+                     double until) {
+  const auto farthest_F = [&](const Eigen::Vector3d&) { return center_F; };
+  return {FirstTouchOf(sweep, {farthest_F, center_F}, radius_m, 0, until), std::nullopt};
+}
+
+FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep) {
+  const Aabb box = sweep.shape_F.box_F().Padded(sweep.margin_m);
+  double share = kNever;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = sweep.way_F[axis];
+    const double before = box.min[axis] - bounds_F.min[axis];
+    const double behind = bounds_F.max[axis] - box.max[axis];
+    // What is not a number is out of bounds.
+    if (!(before >= 0 && behind >= 0)) return {0, std::nullopt};
+    if (!(way <= behind)) share = std::min(share, way > 0 ? behind / way : 0.0);
+    if (!(-way <= before)) share = std::min(share, way < 0 ? before / -way : 0.0);
+  }
+  return {share, std::nullopt};
+}
+
+}  // namespace clearway
