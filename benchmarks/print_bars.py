@@ -22,6 +22,8 @@ AT_LEAST = {
     "clearance_vs_fcl_x": 100,
     "rpc_points_vs_echo_x": 0.25,
     "mirror_vs_local_x": 0.9,
+    "motion_vs_sampled_x": 5,
+    "motion_vs_fcl_x": 100,
 }
 AT_MOST = {
     "publish_ms": 1,
@@ -30,6 +32,7 @@ AT_MOST = {
     "rpc_unary_vs_empty_x": 1.5,
     "query_p99_while_writing_x": 1.3,
     "delta_mb_per_scan": 3,
+    "motion_unresolved_fraction": 0.01,
 }
 
 

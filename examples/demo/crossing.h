@@ -45,6 +45,7 @@ struct GroundPlane {
   double HeightM(double x_m, double y_m) const {
     return coefficients.dot(Eigen::Vector3d(1, x_m - center_W.x(), y_m - center_W.y()));
   }
+  double Slope() const { return coefficients.tail<2>().norm(); }
 };
 
 // The plane through the lowest occupied voxels within `radius_m` of the way. FAILED_PRECONDITION if

@@ -71,8 +71,10 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
                               const PlanSettings& settings) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const auto space = SpaceOf(crossing, settings);
-  const Ground under{[ground](double x_m, double y_m) { return ground.HeightM(x_m, y_m); },
-                     settings.ground_clearance_m};
+  const Ground under{
+      .height_m = [ground](double x_m, double y_m) { return ground.HeightM(x_m, y_m); },
+      .clearance_m = settings.ground_clearance_m,
+      .max_slope = ground.Slope()};
   PlanningOptions options;
   options.check = CheckOptionsOf(settings, inflation_mps);
   const auto si = MakeSpaceInformation(

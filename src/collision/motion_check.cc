@@ -70,12 +70,15 @@ void MotionCheck::SetLeg(const TimeSpan& span, const Pose* from_T_W_L, const Pos
       leg_.parts.emplace_back(static_cast<int>(link), leg_.links[link], span, part, deviation_m);
     }
   }
+  leg_.longest = LongestSpan();
+  leg_.shortest = ShortestSpan();
 }
 
 // Where a span's sweeps stop, contact may be near: looks at single states tell, which cost far less
 // than sweeps, and then no span need go beyond it.
 bool MotionCheck::Prove(MotionAnswer& answer) {
-  const Duration longest = LongestSpan(), shortest = ShortestSpan();
+  const Duration longest = leg_.longest, shortest = leg_.shortest;
+  unknown_step_ = std::max(shortest, longest / 16);
   const Duration least = std::max(Duration(1), shortest / kFiner);
   Duration length = longest;
   Time end = leg_.span.until;  // or the earliest contact that is known
@@ -107,7 +110,7 @@ bool MotionCheck::Prove(MotionAnswer& answer) {
 // as soon as it has made up for the slack. Returns `end` if nothing earlier is known.
 Time MotionCheck::EarliestContact(const TimeSpan& span, double slack_m, Time end,
                                   MotionAnswer& answer) {
-  const Duration shortest = ShortestSpan();
+  const Duration shortest = leg_.shortest;
   const double shorts = 1 + 2 * slack_m / context_.options.contact_resolution_m;
   const Time from = answer.free_until;
   std::array<Time, 4> looks{from, from + shortest, from + Seconds(shorts * ToSeconds(shortest)),
@@ -146,7 +149,7 @@ Duration MotionCheck::ShortestSpan() const {
   return Seconds(context_.options.contact_resolution_m / (fastest_mps + fastest_object_mps_));
 }
 
-MotionCheck::Stop MotionCheck::FirstStop(const TimeSpan& span) const {
+MotionCheck::Stop MotionCheck::FirstStop(const TimeSpan& span) {
   Stop stop;
   for (const MovingPart& part : leg_.parts) {
     const MovingPart::Passage passage = part.During(span);
@@ -177,27 +180,41 @@ void MotionCheck::StopAtStatic(const MovingPart& part, const MovingPart::Passage
       slack_m);
 }
 
-// From where unknown space is touched first, unless the robot never lies in more of it than is
-// tolerated.
-void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) const {
-  const VoxelMap& map_W = scene_.static_map_W;
+// Goes on by short steps from where unknown space is touched first, as long as the robot never lies
+// in more of it than is tolerated.
+void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) {
   Stop touched = stop;
-  std::vector<LooseShape> shapes;
   for (const MovingPart& part : leg_.parts) {
     const auto [bare, slack_m] = part.InWorld(part.During(span), 0);
-    touched.Add(TouchUnobserved(map_W, options_.known_free_W, bare, touched.until(),
-                                context_.check.cancelled)
-                    .share,
-                slack_m);
-    const Eigen::Vector3d half_way = 0.5 * bare.way_F;
-    shapes.push_back({bare.shape_F.In({Eigen::Quaterniond::Identity(), half_way}),
-                      bare.margin_m + half_way.norm()});
+    const FirstTouch touch = TouchUnobserved(scene_.static_map_W, options_.known_free_W, bare,
+                                             touched.until(), context_.check.cancelled);
+    touched.Add(touch.share, slack_m);
   }
-  if (touched.share >= stop.share) return;
-  if (MostUnknownShareOf(map_W, options_.known_free_W, shapes, context_.check.cancelled) >
-      options_.max_unknown_fraction) {
-    stop = touched;
+  const Time until = stop.share >= 1 ? span.until : span.At(stop.share);
+  const Duration least = leg_.shortest / 2;
+  for (Time t = span.At(touched.until()); touched.share < stop.share && t < until;) {
+    const TimeSpan step{t, std::min(until, t + unknown_step_)};
+    if (MostUnknownShare(step) <= options_.max_unknown_fraction) {
+      t = step.until;
+      unknown_step_ = std::min(2 * unknown_step_, leg_.longest);
+    } else if (unknown_step_ <= least || context_.check.cancelled()) {
+      const auto all = static_cast<double>((span.until - span.from).count());
+      stop = {static_cast<double>((t - span.from).count()) / all, 0};
+      return;
+    } else {
+      unknown_step_ = std::max(least, std::min(unknown_step_, step.until - step.from) / 2);
+    }
   }
+}
+
+double MotionCheck::MostUnknownShare(const TimeSpan& span) const {
+  std::vector<LooseShape> shapes;
+  for (const MovingPart& part : leg_.parts) {
+    const Sweep bare = part.InWorld(part.During(span), 0).sweep;
+    shapes.push_back({bare.shape_F, bare.way_F, bare.margin_m});
+  }
+  return MostUnknownShareOf(scene_.static_map_W, options_.known_free_W, shapes,
+                            context_.check.cancelled);
 }
 
 void MotionCheck::StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage,

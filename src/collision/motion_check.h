@@ -40,6 +40,7 @@ class MotionCheck {
     TimeSpan span;
     std::vector<LinkMotion> links;
     std::vector<MovingPart> parts;  // of all links; refer to them
+    Duration longest, shortest;     // spans; see LongestSpan and ShortestSpan
   };
   // What a span's sweeps touch first.
   struct Stop {
@@ -57,11 +58,14 @@ class MotionCheck {
   // Whether the leg is free; else the answer is complete.
   bool Prove(MotionAnswer& answer);
   Time EarliestContact(const TimeSpan& span, double slack_m, Time end, MotionAnswer& answer);
+  // What is no longer than that fits closely enough, and in what takes no longer nothing moves by
+  // more than the resolution of contacts.
   Duration LongestSpan() const;
   Duration ShortestSpan() const;
-  Stop FirstStop(const TimeSpan& span) const;
+  Stop FirstStop(const TimeSpan& span);
   void StopAtStatic(const MovingPart& part, const MovingPart::Passage& passage, Stop& stop) const;
-  void StopAtUnknownShare(const TimeSpan& span, Stop& stop) const;
+  void StopAtUnknownShare(const TimeSpan& span, Stop& stop);
+  double MostUnknownShare(const TimeSpan& span) const;
   void StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage, Stop& stop) const;
   ObjectPiece PieceOf(const MovingObject& object, Time from, Time until) const;
   void StopAtObject(const MovingPart& part, const MovingPart::Passage& passage, std::size_t object,
@@ -85,7 +89,8 @@ class MotionCheck {
   Aabb bounds_W_;
   double fastest_object_mps_ = 0;  // of any of its points
   Leg leg_;                        // at hand
-  std::vector<Pose> T_W_L_;        // of StateAt
+  Duration unknown_step_{};  // of the leg: in such steps the share of unknown space is bounded
+  std::vector<Pose> T_W_L_;  // of StateAt
 };
 
 }  // namespace clearway

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clearway/map/voxel_map.h"
+#include "collision/center_masks.h"
 #include "collision/narrowphase.h"
 #include "collision/voxel_search.h"
 
@@ -16,13 +17,7 @@ namespace clearway {
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                       const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled);
 
-// A shape, no point of which ever is farther than margin_m from its place.
-struct LooseShape {
-  PlacedShape shape_W;
-  double margin_m;
-};
-
-// At least what UnknownShareOf says wherever the shapes are within their margins.
+// At least what UnknownShareOf says wherever the shapes are on their ways, together.
 double MostUnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                           const std::vector<LooseShape>& shapes_W, const Cancelled& cancelled);
 

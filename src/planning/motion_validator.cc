@@ -1,9 +1,7 @@
 #include "clearway/planning/motion_validator.h"
 
-#include <algorithm>
 #include <atomic>
 #include <utility>
-#include <vector>
 
 namespace clearway {
 
@@ -15,25 +13,18 @@ SceneMotionValidator::SceneMotionValidator(const ob::SpaceInformationPtr& si,
 
 bool SceneMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {
   // Bounds first: it saves a call of the checker.
-  return Count(query_->space().satisfiesBounds(s2) && ValidFraction(s1, s2) >= 1);
+  return Count(query_->space().satisfiesBounds(s2) && query_->ProveMotion(s1, s2).free());
 }
 
 bool SceneMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2,
                                        std::pair<ob::State*, double>& last_valid) const {
-  const double fraction = ValidFraction(s1, s2);
-  if (fraction >= 1) return Count(true);
-  last_valid.second = fraction;
+  const MotionProof proof = query_->ProveMotion(s1, s2);
+  if (proof.free()) return Count(true);
+  last_valid.second = proof.free_fraction;
   if (last_valid.first != nullptr) {
-    query_->space().interpolate(s1, s2, fraction, last_valid.first);
+    query_->space().interpolate(s1, s2, proof.free_fraction, last_valid.first);
   }
   return Count(false);
-}
-
-double SceneMotionValidator::ValidFraction(const ob::State* s1, const ob::State* s2) const {
-  const std::vector<StateAnswer> answers = query_->CheckMotion(s1, s2);
-  const auto invalid = std::ranges::find_if(
-      answers, [](const StateAnswer& a) { return a.status != SpaceStatus::kFree; });
-  return static_cast<double>(invalid - answers.begin()) / static_cast<double>(answers.size());
 }
 
 bool SceneMotionValidator::Count(bool valid) const {

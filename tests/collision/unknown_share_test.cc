@@ -125,29 +125,33 @@ TEST(MostUnknownShare, HoldsWhereverTheShapesAre) {
     std::deque<ShapeGeometry> geometries;
     std::vector<LooseShape> loose;
     std::vector<Pose> places;
+    std::vector<Eigen::Vector3d> ways;
     for (int k = random.Integer(1, 3); k > 0; --k) {
       geometries.emplace_back(AnyShape(random));
       places.push_back(random.AnyPose(0.8));
-      loose.push_back({PlacedShape(geometries.back(), places.back()), margin_m});
+      ways.push_back(i % 2 == 0 ? Eigen::Vector3d::Zero() : random.Vector(0.3));
+      loose.push_back({PlacedShape(geometries.back(), places.back()), ways.back(), margin_m});
     }
     const double dut = MostUnknownShareOf(map, known_free, loose, kNever);
     useful += dut < 1;
     for (int j = 0; j < 20; ++j) {
       PlacedShapes moved;
+      const double along = random.Uniform(0, 1);
       for (std::size_t s = 0; s < places.size(); ++s) {
         const double radius_m = geometries[s].box_G().Size().norm() / 2;
         const double angle_rad = 0.5 * margin_m / radius_m;
         const Eigen::AngleAxisd turn(random.Uniform(-angle_rad, angle_rad), random.UnitVector());
         const Eigen::Vector3d way = random.Uniform(0, 0.5) * margin_m * random.UnitVector();
-        moved.Add(geometries[s].shape(), {places[s].rotation * turn, places[s].translation + way});
+        moved.Add(geometries[s].shape(),
+                  {places[s].rotation * turn, places[s].translation + along * ways[s] + way});
       }
       const double share = UnknownShareOf(map, known_free, moved.all(), kNever);
       ASSERT_LE(share, dut + 1e-12) << i;
-      tight += margin_m == 0 && share > 0.98 * dut;
+      tight += margin_m == 0 && ways[0].isZero() && share > 0.98 * dut;
     }
   }
   EXPECT_GT(useful, 40);
-  EXPECT_GT(tight, 200);
+  EXPECT_GT(tight, 100);
 }
 
 TEST(UnknownShare, EndsWhenNobodyWaits) {

@@ -106,8 +106,8 @@ TEST_F(MotionValidatorTest, LastValidStopsAtTheBounds) {
   EXPECT_TRUE(space_->satisfiesBounds(c.get()));
 }
 
-// Random motions among discs, at rest and moving: the same verdict, fraction and state as a scan of
-// single states.
+// Random motions among discs, at rest and moving: the same verdict as a scan of single states, and
+// proved free up to where the scan finds contact, within a step.
 void CompareWithScan(const ob::SpaceInformation& si) {
   const auto& space = si.getStateSpace();
   const StateQuery& query = *QueryOf(si);
@@ -134,7 +134,9 @@ void CompareWithScan(const ob::SpaceInformation& si) {
     ASSERT_EQ(valid, si.getMotionValidator()->checkMotion(a.get(), b.get()));
     if (valid) continue;
     cut += k > 1;
-    EXPECT_EQ(last_valid.second, static_cast<double>(k - 1) / static_cast<double>(n));
+    const double step = 1 / static_cast<double>(n), blocked = static_cast<double>(k) * step;
+    EXPECT_LE(last_valid.second, blocked);
+    EXPECT_GE(last_valid.second, blocked - 2 * step);
     space->interpolate(a.get(), b.get(), last_valid.second, scanned.get());
     EXPECT_EQ(c, scanned);
     EXPECT_TRUE(si.isValid(c.get()));
@@ -142,12 +144,12 @@ void CompareWithScan(const ob::SpaceInformation& si) {
   EXPECT_GT(cut, 30);
 }
 
-TEST_F(MotionValidatorTest, LastValidEqualsAScan) {
+TEST_F(MotionValidatorTest, LastValidIsWhereAScanEnds) {
   UseSe2({{{3, 0}, {0, 0}, 1}, {{-4, 2}, {0, 0}, 1.5}, {{0, -6}, {0, 0}, 2}});
   CompareWithScan(*si_);
 }
 
-TEST_F(MotionValidatorTest, LastValidEqualsAScanInSpaceTime) {
+TEST_F(MotionValidatorTest, LastValidIsWhereAScanEndsInSpaceTime) {
   UseSpaceTime({{{3, 0}, {0.5, 0}, 1}, {{-4, 2}, {0, -0.5}, 1.5}, {{0, -6}, {-1, 1}, 2}});
   CompareWithScan(*si_);
 }

@@ -27,8 +27,8 @@ TEST(StateMapping, Empty) {
 
 TEST(StateMapping, Se2StandsOnTheGroundWithItsLowestPoint) {
   const Ground slope{.height_m = [](double x_m, double y_m) { return 0.1 * x_m - 0.2 * y_m; },
-                     .max_slope = 0.25,
-                     .clearance_m = 0.15};
+                     .clearance_m = 0.15,
+                     .max_slope = 0.25};
   const auto dut = StateMapping::Se2(DeliveryRobot(), slope, FixedTime{kNow});
   const StateBatch batch = BatchOf(dut, MakeState(MakeSe2(), {3, 1, kHalfTurn / 2}));
   ASSERT_EQ(batch.T_W_L.size(), 1u);

@@ -26,10 +26,10 @@ struct Ground {
   // z of the ground at (x, y), metres in W; none: 0 everywhere. Must be callable from any thread,
   // and finite.
   std::function<double(double x_m, double y_m)> height_m;
+  double clearance_m = 0.1;
   // The most that height_m changes per metre. Has to be stated with it: proofs of motions rest on
   // it.
   std::optional<double> max_slope = std::nullopt;
-  double clearance_m = 0.1;
 };
 
 // For spaces without a time component: every state is checked at this time.
