@@ -20,9 +20,8 @@
 #include "clearway/client/remote_checker.h"
 #include "clearway/client/scene_mirror.h"
 #include "clearway/collision/scene_checker.h"
-#include "clearway/planning/earliest_arrival.h"
 #include "clearway/planning/path_check.h"
-#include "clearway/planning/space_information.h"
+#include "clearway/planning/space_time_setup.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/sim/scenarios.h"
 
@@ -36,7 +35,7 @@ using std::chrono::seconds;
 struct Settings {
   bool in_process = false;
   std::string remote, mirror;  // or a server's address
-  std::string planner = "RRT";
+  std::string planner = "SafeInterval";
   double planning_s = 3;
 };
 
@@ -102,26 +101,32 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   Ground ground;
   ground.clearance_m = options.check.padding_m + 0.1;  // one voxel
   const auto mapping = StateMapping::Se2(checker->robot(), ground, TimeSince{checker->stamp()});
-  const auto si = MakeSpaceInformation(space, checker, mapping, options);
-  if (!si.ok()) return si.status();
 
   ob::ScopedState<> start(space), goal(space);
   start = std::vector<double>{task.start_W.x(), task.start_W.y(), std::numbers::pi / 2, 0};
   goal = std::vector<double>{task.goal_W.x(), task.goal_W.y(), std::numbers::pi / 2, 0};
-  ob::PlannerPtr planner = std::make_shared<og::RRT>(*si);
-  if (settings.planner == "EST") planner = std::make_shared<og::EST>(*si);
-  const auto path =
-      PlanEarliestArrival(planner, start.get(), SpaceTimeStateSpace::SpacePart(goal.get()),
-                          GoalOptions(), ob::timedPlannerTerminationCondition(settings.planning_s));
-  if (!path.ok()) return path.status();
+  const auto setup = MakeSpaceTimeSetup(space, checker, mapping, options, start.get(),
+                                        SpaceTimeStateSpace::SpacePart(goal.get()), GoalOptions());
+  if (!setup.ok()) return setup.status();
+  // Whatever of OMPL's planners goes forward in time may stand in for the setup's own.
+  const ob::SpaceInformationPtr& si = (*setup)->getSpaceInformation();
+  if (settings.planner == "RRT") (*setup)->setPlanner(std::make_shared<og::RRT>(si));
+  if (settings.planner == "EST") (*setup)->setPlanner(std::make_shared<og::EST>(si));
+  const ob::PlannerStatus solved = (*setup)->solve(settings.planning_s);
+  const StateQuery& query = *QueryOf(*si);
+  if (!query.first_error().ok()) return query.first_error();
+  if (solved != ob::PlannerStatus::EXACT_SOLUTION) {
+    return absl::NotFoundError(settings.planner + ": no path found, " + solved.asString());
+  }
+  og::PathGeometric& path = (*setup)->getSolutionPath();
 
-  const PathCheck check = CheckPath(**path, *QueryOf(**si));
+  const PathCheck check = CheckPath(path, query);
   std::printf("%s: %zu states, %s on version %llu, %.0f %% of its volume unknown\n",
-              settings.planner.c_str(), (*path)->getStateCount(), check.free ? "free" : "blocked",
+              settings.planner.c_str(), path.getStateCount(), check.free ? "free" : "blocked",
               static_cast<unsigned long long>(checker->version()),
               100 * check.unknown_fraction.value_or(1));
-  (*path)->interpolate(static_cast<unsigned int>(check.answers.size()));
-  return TimedPoses(**path, mapping);
+  path.interpolate(static_cast<unsigned int>(check.answers.size()));
+  return TimedPoses(path, mapping);
 }
 
 // What the plan would really have touched.
@@ -170,7 +175,8 @@ int main(int argc, char** argv) {
   where->add_option("--remote", settings.remote, "On the server at this address");
   where->add_option("--mirror", settings.mirror, "Mirrored from the server at this address");
   where->require_option(1);
-  app.add_option("--planner", settings.planner)->check(CLI::IsMember({"RRT", "EST"}));
+  app.add_option("--planner", settings.planner)
+      ->check(CLI::IsMember({"SafeInterval", "RRT", "EST"}));
   app.add_option("--planning-time", settings.planning_s, "Seconds to plan for")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

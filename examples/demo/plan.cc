@@ -1,20 +1,16 @@
 #include "demo/plan.h"
 
-#include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
-#include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "absl/strings/str_format.h"
-#include "clearway/planning/earliest_arrival.h"
 #include "clearway/planning/path_check.h"
-#include "clearway/planning/space_information.h"
-#include "clearway/planning/space_time.h"
+#include "clearway/planning/space_time_setup.h"
 
 namespace clearway::demo {
 namespace {
@@ -43,18 +39,6 @@ void SetSe2(ob::State* state, const Eigen::Vector2d& p_W, double yaw_rad) {
   se2->setYaw(yaw_rad);
 }
 
-// NOT_FOUND if no path arrives in time.
-absl::StatusOr<std::shared_ptr<og::PathGeometric>> EarlyPath(const ob::SpaceInformationPtr& si,
-                                                             const ob::State* start,
-                                                             const ob::State* goal,
-                                                             unsigned int iterations) {
-  auto planner = std::make_shared<og::RRT>(si);
-  planner->setRange(5);  // long: most crossings are a few straight motions
-  planner->setGoalBias(0.15);
-  ob::IterationTerminationCondition enough(iterations);
-  return PlanEarliestArrival(planner, start, goal, {.tolerance = 0.01}, enough);
-}
-
 CheckOptions CheckOptionsOf(const PlanSettings& settings, double inflation_mps) {
   CheckOptions options;
   options.unknown = UnknownPolicy::kTolerated;
@@ -77,31 +61,30 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
       .max_slope = ground.Slope()};
   PlanningOptions options;
   options.check = CheckOptionsOf(settings, inflation_mps);
-  const auto si = MakeSpaceInformation(
-      space, checker, StateMapping::Se2(checker->robot(), under, TimeSince{crossing.now}), options);
-  if (!si.ok()) return si.status();
+  const auto mapping = StateMapping::Se2(checker->robot(), under, TimeSince{crossing.now});
 
   ob::ScopedState<> start(space);
   SetSe2(SpaceTimeStateSpace::SpacePart(start.get()), crossing.start_W, crossing.Yaw());
   SpaceTimeStateSpace::SetSeconds(start.get(), 0);
   ob::ScopedState<> goal(space->space());
   SetSe2(goal.get(), crossing.goal_W, crossing.Yaw());
-  const auto path = EarlyPath(*si, start.get(), goal.get(), settings.iterations);
-  const StateQuery& query = *QueryOf(**si);
+  const auto setup = MakeSpaceTimeSetup(space, checker, mapping, options, start.get(), goal.get(),
+                                        {.tolerance = 0.01});
+  if (!setup.ok()) return setup.status();
+  ob::IterationTerminationCondition enough(settings.iterations);
+  const bool found = static_cast<bool>((*setup)->solve(enough));
+  const StateQuery& query = *QueryOf(*(*setup)->getSpaceInformation());
   if (!query.first_error().ok()) return query.first_error();
-  if (!path.ok()) return path.status();
-  const PathCheck check = CheckPath(**path, query);
+  if (!found) return absl::NotFoundError("no path arrives in time");
+  og::PathGeometric path = (*setup)->getSolutionPath();
+  const PathCheck check = CheckPath(path, query);
   if (!check.free) return absl::InternalError("the path found does not pass its own check");
   // What is judged and drawn is the motion that was checked, step by step.
-  (*path)->interpolate(static_cast<unsigned int>(check.answers.size()));
-  auto poses = TimedPoses(**path, query.mapping());
+  path.interpolate(static_cast<unsigned int>(check.answers.size()));
+  auto poses = TimedPoses(path, query.mapping());
   if (!poses.ok()) return poses.status();
-  return Plan{"RRT",
-              inflation_mps,
-              *std::move(poses),
-              check.unknown_fraction.value_or(1),
-              checker->version(),
-              check.answers.size()};
+  return Plan{(*setup)->getPlanner()->getName(),  inflation_mps,      *std::move(poses),
+              check.unknown_fraction.value_or(1), checker->version(), check.answers.size()};
 }
 
 }  // namespace

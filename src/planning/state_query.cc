@@ -88,6 +88,19 @@ StateAnswer StateQuery::CheckOne(const ob::State* state, const CheckOptions& opt
   return Answer(batch, options)[0];
 }
 
+std::vector<StateAnswer> StateQuery::CheckPlace(const ob::State* state,
+                                                const std::vector<double>& seconds) const {
+  const ScratchState scratch(*space_);
+  space_->copyState(scratch.get(), state);
+  StateBatch batch;
+  for (const double at_s : seconds) {
+    SpaceTimeStateSpace::SetSeconds(scratch.get(), at_s);
+    const absl::Status status = mapping_.Append(scratch.get(), batch);
+    if (!status.ok()) return Unresolved(seconds.size(), status);
+  }
+  return Answer(batch, options_.check);
+}
+
 std::vector<StateAnswer> StateQuery::CheckMotion(const ob::State* from, const ob::State* to,
                                                  std::vector<Time>* times) const {
   if (const auto* space_time = dynamic_cast<const SpaceTimeStateSpace*>(space_.get());

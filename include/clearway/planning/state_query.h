@@ -62,6 +62,10 @@ class StateQuery {
   // With StateAnswer::clearance_m, up to PlanningOptions::clearance_up_to_m.
   StateAnswer CheckClearance(const ompl::base::State* state) const;
 
+  // The place of a SpaceTimeStateSpace's state at other times, with one call of the checker.
+  std::vector<StateAnswer> CheckPlace(const ompl::base::State* state,
+                                      const std::vector<double>& seconds) const;
+
   // Cuts the motion into n equal parts as PlanningOptions asks and checks the states at fractions
   // 1/n, 2/n, ..., 1 with one call of the checker: n >= 1 answers. A motion that cannot be checked
   // (its time runs backwards or the speed limits are broken, among others) gives one kUnresolved.

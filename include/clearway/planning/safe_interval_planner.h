@@ -1,0 +1,72 @@
+// Planning in space-time over safe intervals.
+#pragma once
+
+#include <ompl/base/OptimizationObjective.h>
+#include <ompl/base/Planner.h>
+
+#include <memory>
+#include <vector>
+
+#include "clearway/planning/space_time.h"
+
+namespace clearway {
+
+// The time that a path takes, in seconds: of two, the better one arrives first.
+class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
+ public:
+  explicit EarliestArrivalObjective(const ompl::base::SpaceInformationPtr& si);
+  ompl::base::Cost stateCost(const ompl::base::State* state) const override;
+  ompl::base::Cost motionCost(const ompl::base::State* from,
+                              const ompl::base::State* to) const override;
+};
+
+// Finds the path that arrives first, in any SpaceTimeStateSpace, whose times the search reasons
+// about instead of sampling them: places are sampled alone. At each place the robot may wait as
+// long as that is free, its safe interval; from it every neighbouring place is left for as soon as
+// the way there, at full speed, is free. (Phillips and Likhachev, "SIPP: Safe Interval Path
+// Planning for Dynamic Environments", 2011; on random places as Karaman and Frazzoli's PRM*,
+// "Sampling-based Algorithms for Optimal Motion Planning", 2011, in batches and with the most
+// promising edge first as Gammell et al.'s BIT*, 2015.)
+//
+// A first path is looked for greedily; then earlier ones, with more and more places, of which only
+// those are kept that an earlier arrival can visit. A latest time far away costs nothing. A robot
+// is at rest or at full speed: it can stop and start at once.
+//
+// Over the space information of MakeSpaceInformation motions are proved and waits are proved safe
+// intervals. Over any other the motion validator is asked; it must refuse motions backwards in
+// time. States are of that space: starts are taken as they are; of goal states the places are
+// taken, and a goal counts as reached when its isSatisfied says so at the time of arrival.
+//
+// One thread. Progress properties "best cost REAL" (the arrival, seconds of the space), "places
+// INTEGER", "edges checked INTEGER". Continues where it stopped if solve is called again without
+// clear().
+class SafeIntervalPlanner : public ompl::base::Planner {
+ public:
+  explicit SafeIntervalPlanner(const ompl::base::SpaceInformationPtr& si);
+  ~SafeIntervalPlanner() override;
+
+  // How many places the first batch has; each later one has as many as there are then.
+  void SetFirstBatch(unsigned int places) { first_batch_ = places; }
+  unsigned int GetFirstBatch() const { return first_batch_; }
+
+  // INVALID_START or INVALID_GOAL if none is valid, or if the goal is too far for the latest time;
+  // TIMEOUT if `until` held before a path was found; else EXACT_SOLUTION, with the earliest arrival
+  // found when `until` held, or with one that no path can beat. Gives the problem the objective
+  // EarliestArrivalObjective if it has none.
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
+  void clear() override;
+  void setup() override;
+  // The stays of the last search, at the times of arrival, and the ways between them.
+  void getPlannerData(ompl::base::PlannerData& data) const override;
+
+ private:
+  struct Impl;
+  void AddStarts();
+  void AddGoals(const ompl::base::PlannerTerminationCondition& until);
+  void AddSolution();
+
+  std::unique_ptr<Impl> impl_;
+  unsigned int first_batch_ = 100;
+};
+
+}  // namespace clearway

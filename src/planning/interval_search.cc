@@ -1,0 +1,124 @@
+#include "planning/interval_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway {
+namespace {
+
+// What is not worth the trouble: arrivals are told apart to this.
+constexpr double kSoon_s = 1e-3;
+
+}  // namespace
+
+std::vector<Stay> IntervalSearch::Find(const Question& question) {
+  question_ = &question;
+  stays_.clear();
+  open_.clear();
+  stays_at_.assign(roadmap_.size(), {});
+  held_.resize(roadmap_.size());
+  for (const auto& [place, seconds] : question.starts) AddStay(place, seconds, -1, seconds);
+  const std::size_t before = checks_.ways_asked();
+  const auto enough = [&] { return checks_.ways_asked() - before >= question.most_ways; };
+  while (!open_.empty() && !enough() && !question.cancelled()) {
+    std::pop_heap(open_.begin(), open_.end());
+    const Candidate next = open_.back();
+    open_.pop_back();
+    if (!Follow(next)) continue;
+    std::vector<Stay> path;
+    for (int at = static_cast<int>(stays_.size()) - 1; at >= 0; at = stays_[at].before) {
+      path.push_back(stays_[at]);
+    }
+    std::ranges::reverse(path);
+    return path;
+  }
+  return {};
+}
+
+double IntervalSearch::LeftSeconds(std::size_t place) const {
+  double left_s = std::numeric_limits<double>::infinity();
+  for (const std::size_t goal : question_->goals) {
+    left_s = std::min(left_s, roadmap_.Seconds(place, goal));
+  }
+  return left_s;
+}
+
+void IntervalSearch::Propose(int stay, std::size_t to, double depart_s) {
+  const Stay& from = stays_[stay];
+  if (depart_s > from.leave_by_s || never_.contains({from.place, to})) return;
+  const double arrival_s = depart_s + roadmap_.Seconds(from.place, to);
+  const double left_s = LeftSeconds(to);
+  if (arrival_s + left_s >= std::min(question_->earlier_than_s, space_.latest_s())) return;
+  open_.push_back({arrival_s + question_->weight * left_s, stay, to, depart_s});
+  std::push_heap(open_.begin(), open_.end());
+}
+
+std::optional<double> IntervalSearch::HeldUntil(std::size_t place, double arrival_s) const {
+  for (const int i : stays_at_[place]) {
+    const Stay& stay = stays_[i];
+    if (stay.arrival_s <= arrival_s && arrival_s <= stay.leave_by_s) return stay.leave_by_s;
+  }
+  return std::nullopt;
+}
+
+double IntervalSearch::LeaveBy(std::size_t place, double arrival_s) {
+  for (const auto& [from_s, until_s] : held_[place]) {
+    if (from_s <= arrival_s && arrival_s <= until_s) return until_s;
+  }
+  const double until_s = checks_.FreeUntil(roadmap_.Place(place), arrival_s, space_.latest_s());
+  held_[place].emplace_back(arrival_s, until_s);
+  return until_s;
+}
+
+bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, double departed_s) {
+  const double leave_by_s = LeaveBy(place, arrival_s);
+  const int stay = static_cast<int>(stays_.size());
+  stays_.push_back({place, arrival_s, leave_by_s, before, departed_s});
+  stays_at_[place].push_back(stay);
+  if (std::ranges::find(question_->goals, place) != question_->goals.end() &&
+      question_->arrived(place, arrival_s)) {
+    return true;
+  }
+  for (const std::size_t to : roadmap_.Near(place)) Propose(stay, to, arrival_s);
+  for (const std::size_t goal : question_->goals) {
+    if (goal != place &&
+        std::ranges::find(roadmap_.Near(place), goal) == roadmap_.Near(place).end())
+      Propose(stay, goal, arrival_s);
+  }
+  return false;
+}
+
+const WayAnswer& IntervalSearch::Ask(std::size_t from, std::size_t to, double depart_s,
+                                     double arrival_s) {
+  const auto [entry, fresh] =
+      answers_.try_emplace({{from, to}, std::llround(1e9 * depart_s)}, WayAnswer{});
+  if (fresh) {
+    entry->second = checks_.Way(roadmap_.Place(from), roadmap_.Place(to), depart_s, arrival_s);
+  }
+  return entry->second;
+}
+
+bool IntervalSearch::Follow(const Candidate& candidate) {
+  const auto [priority, stay, to, depart_s] = candidate;
+  const std::size_t from = stays_[stay].place;
+  const double seconds = roadmap_.Seconds(from, to);
+  const double arrival_s = depart_s + seconds;
+  if (const auto held_until_s = HeldUntil(to, arrival_s)) {
+    // Nothing is gained but by the next time that the place is free.
+    Propose(stay, to, *held_until_s - seconds + kSoon_s);
+    return false;
+  }
+  const WayAnswer answer = Ask(from, to, depart_s, arrival_s);
+  if (answer.free) {
+    if (AddStay(to, arrival_s, stay, depart_s)) return true;
+    Propose(stay, to, stays_.back().leave_by_s - seconds + kSoon_s);
+  } else if (answer.never) {
+    never_.insert({from, to});
+    never_.insert({to, from});
+  } else {
+    Propose(stay, to, std::max(depart_s + 10 * kSoon_s, answer.not_before_s));
+  }
+  return false;
+}
+
+}  // namespace clearway

@@ -1,0 +1,85 @@
+// The search for the earliest arrival over places and their safe intervals.
+#pragma once
+
+#include <absl/container/flat_hash_map.h>
+#include <absl/container/flat_hash_set.h>
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planning/roadmap.h"
+#include "planning/timed_checks.h"
+
+namespace clearway {
+
+// A stay at a place: reached at arrival_s, to be left until leave_by_s. `departed_s` is when the
+// stay before it ended.
+struct Stay {
+  std::size_t place;
+  double arrival_s, leave_by_s;
+  int before = -1;
+  double departed_s = 0;
+};
+
+// Searches a roadmap that grows between searches, and remembers what was asked. One thread.
+class IntervalSearch {
+ public:
+  IntervalSearch(const SpaceTimeStateSpace& space, const Roadmap& roadmap, TimedChecks& checks)
+      : space_(space), roadmap_(roadmap), checks_(checks) {}
+
+  struct Question {
+    std::vector<std::pair<std::size_t, double>> starts;  // places and times
+    std::vector<std::size_t> goals;
+    // Whether being at that goal then is what is wanted.
+    std::function<bool(std::size_t goal, double arrival_s)> arrived;
+    double weight = 1;  // of what may be left of the way: above 1, sooner found and later there
+    double earlier_than_s = std::numeric_limits<double>::infinity();
+    std::size_t most_ways = std::numeric_limits<std::size_t>::max();  // to ask about
+    std::function<bool()> cancelled;
+  };
+  // The stays of a path, in their order; empty if none was found.
+  std::vector<Stay> Find(const Question& question);
+  // All of the last search.
+  const std::vector<Stay>& stays() const { return stays_; }
+
+ private:
+  // A way out of a stay that may be worth looking at, from a time on.
+  struct Candidate {
+    double priority;
+    int stay;
+    std::size_t to;
+    double depart_s;
+    bool operator<(const Candidate& other) const { return priority > other.priority; }
+  };
+
+  void Propose(int stay, std::size_t to, double depart_s);
+  bool AddStay(std::size_t place, double arrival_s, int before, double departed_s);
+  // Looks at the most promising candidate. Whether that reached a goal.
+  bool Follow(const Candidate& candidate);
+  // Until when the place can be held, if that is known to be reached no later.
+  std::optional<double> HeldUntil(std::size_t place, double arrival_s) const;
+  double LeaveBy(std::size_t place, double arrival_s);
+  double LeftSeconds(std::size_t place) const;
+  const WayAnswer& Ask(std::size_t from, std::size_t to, double depart_s, double arrival_s);
+
+  const SpaceTimeStateSpace& space_;
+  const Roadmap& roadmap_;
+  TimedChecks& checks_;
+
+  // Of the search at hand.
+  const Question* question_ = nullptr;
+  std::vector<Stay> stays_;
+  std::vector<std::vector<int>> stays_at_;  // by place
+  std::vector<Candidate> open_;             // a heap
+
+  // Of all searches.
+  using Way = std::pair<std::size_t, std::size_t>;
+  absl::flat_hash_set<Way> never_;
+  absl::flat_hash_map<std::pair<Way, std::int64_t>, WayAnswer> answers_;
+  std::vector<std::vector<std::pair<double, double>>> held_;  // by place
+};
+
+}  // namespace clearway

@@ -1,0 +1,28 @@
+#include "clearway/planning/space_time_setup.h"
+
+#include <utility>
+
+#include "clearway/planning/safe_interval_planner.h"
+
+namespace clearway {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+absl::StatusOr<og::SimpleSetupPtr> MakeSpaceTimeSetup(
+    const std::shared_ptr<SpaceTimeStateSpace>& space, std::shared_ptr<const StateChecker> checker,
+    StateMapping mapping, PlanningOptions options, const ob::State* start,
+    const ob::State* goal_part, const GoalOptions& goal_options) {
+  const auto si =
+      MakeSpaceInformation(space, std::move(checker), std::move(mapping), std::move(options));
+  if (!si.ok()) return si.status();
+  const auto problem = MakeSpaceTimeProblem(*si, start, goal_part, goal_options);
+  if (!problem.ok()) return problem.status();
+  auto setup = std::make_shared<og::SimpleSetup>(*si);
+  setup->setPlanner(std::make_shared<SafeIntervalPlanner>(*si));
+  setup->addStartState(ob::ScopedState<>(space, start));
+  setup->setGoal((*problem)->getGoal());
+  return setup;
+}
+
+}  // namespace clearway

@@ -1,0 +1,105 @@
+#include "planning/timed_checks.h"
+
+#include <algorithm>
+
+#include "clearway/planning/space_information.h"
+
+namespace clearway {
+namespace {
+
+namespace ob = ompl::base;
+
+// From when on, and how finely, it is looked for when something that passes is gone again.
+constexpr double kLookAgain_s = 0.2, kGoneWithin_s = 0.06;
+// Without proofs: how finely the end of a wait is looked for.
+constexpr double kWaitWithin_s = 0.02;
+
+}  // namespace
+
+TimedChecks::TimedChecks(const ob::SpaceInformationPtr& si)
+    : si_(si),
+      space_(si->getStateSpace()->as<SpaceTimeStateSpace>()),
+      query_(QueryOf(*si)),
+      first_(si->allocState()),
+      second_(si->allocState()),
+      latest_s_(space_->latest_s()) {}
+
+TimedChecks::~TimedChecks() {
+  si_->freeState(first_);
+  si_->freeState(second_);
+}
+
+double TimedChecks::FreeUntil(const ob::State* part, double from_s, double until_s) {
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(second_), part);
+  if (query_ == nullptr) return WaitByHalves(from_s, until_s);
+  SpaceTimeStateSpace::SetSeconds(first_, from_s);
+  SpaceTimeStateSpace::SetSeconds(second_, until_s);
+  const MotionProof proof = query_->ProveMotion(first_, second_);
+  return proof.free() ? until_s : from_s + proof.free_fraction * (until_s - from_s);
+}
+
+bool TimedChecks::IsFree(double begin_s, double end_s) {
+  SpaceTimeStateSpace::SetSeconds(first_, begin_s);
+  SpaceTimeStateSpace::SetSeconds(second_, end_s);
+  return si_->checkMotion(first_, second_);
+}
+
+// Doubles the wait while it is free, then halves what may be added.
+double TimedChecks::WaitByHalves(double from_s, double until_s) {
+  SpaceTimeStateSpace::SetSeconds(first_, from_s);
+  if (!si_->isValid(first_)) return from_s;
+  double free_s = from_s, more_s = 1;
+  while (free_s < until_s && more_s > kWaitWithin_s) {
+    const double next_s = std::min(until_s, free_s + more_s);
+    const bool free = IsFree(free_s, next_s);
+    if (free) free_s = next_s;
+    more_s = free ? 2 * more_s : std::min(more_s, next_s - free_s) / 2;
+  }
+  return free_s;
+}
+
+WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part, double begin_s,
+                           double end_s) {
+  ++ways_asked_;
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), from_part);
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(second_), to_part);
+  if (query_ == nullptr) {
+    if (IsFree(begin_s, end_s)) return {true, false, begin_s};
+    return {false, false, begin_s + kLookAgain_s};
+  }
+  SpaceTimeStateSpace::SetSeconds(first_, begin_s);
+  SpaceTimeStateSpace::SetSeconds(second_, end_s);
+  const MotionProof proof = query_->ProveMotion(first_, second_);
+  if (proof.free()) return {true, false, begin_s};
+  const auto& witness = proof.answer.witness;
+  if (!witness) return {false, false, begin_s + kLookAgain_s};
+  if (witness->object == kStaticLabel) return {false, true, 0};
+  const absl::StatusOr<Time> begin = query_->mapping().TimeOf(first_);
+  if (!begin.ok()) return {false, true, 0};
+  const double after_s = ToSeconds(witness->until - *begin);
+  const double share = end_s > begin_s ? after_s / (end_s - begin_s) : 0;
+  space_->interpolate(first_, second_, std::clamp(share, 0.0, 1.0), first_);
+  return {false, false, FreeAgain(begin_s + after_s) - after_s};
+}
+
+// Something is in the way at that place and time: when is it gone? Looked for ever farther ahead.
+// At the space's latest, if it is not seen to go before.
+double TimedChecks::FreeAgain(double blocked_s) {
+  const auto free_at = [&](double seconds) {
+    return query_->CheckPlace(first_, {seconds})[0].status == SpaceStatus::kFree;
+  };
+  double there_s = blocked_s, gone_s = blocked_s;
+  for (double ahead_s = kLookAgain_s; gone_s == blocked_s; ahead_s *= 2) {
+    const double look_s = blocked_s + ahead_s;
+    if (look_s >= latest_s_) return latest_s_;
+    (free_at(look_s) ? gone_s : there_s) = look_s;
+  }
+  while (gone_s - there_s > kGoneWithin_s) {
+    const double middle_s = 0.5 * (there_s + gone_s);
+    (free_at(middle_s) ? gone_s : there_s) = middle_s;
+  }
+  return gone_s;
+}
+
+}  // namespace clearway

@@ -1,0 +1,48 @@
+// What the search in space-time asks about places and times.
+#pragma once
+
+#include <ompl/base/SpaceInformation.h>
+
+#include <memory>
+
+#include "clearway/planning/space_time.h"
+#include "clearway/planning/state_query.h"
+
+namespace clearway {
+
+// The answer about a way from one place to another that begins at some time.
+struct WayAnswer {
+  bool free = false;
+  bool never = false;       // whenever it begins: something that stands still is in the way
+  double not_before_s = 0;  // if neither: it is not worth trying to begin earlier than then
+};
+
+// Asks about waits and ways, at times in seconds of the space. One thread.
+class TimedChecks {
+ public:
+  explicit TimedChecks(const ompl::base::SpaceInformationPtr& si);
+  ~TimedChecks();
+  TimedChecks(const TimedChecks&) = delete;
+  TimedChecks& operator=(const TimedChecks&) = delete;
+
+  // From `from_s` on the robot can wait at the place up to the time returned; `from_s` or less if
+  // it cannot even be there.
+  double FreeUntil(const ompl::base::State* part, double from_s, double until_s);
+  WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
+                double begin_s, double end_s);
+  std::size_t ways_asked() const { return ways_asked_; }
+
+ private:
+  bool IsFree(double begin_s, double end_s);  // from first_ to second_
+  double WaitByHalves(double from_s, double until_s);
+  double FreeAgain(double blocked_s);  // what is at first_
+
+  ompl::base::SpaceInformationPtr si_;
+  const SpaceTimeStateSpace* space_;
+  const StateQuery* query_;             // or null
+  ompl::base::State *first_, *second_;  // owned
+  double latest_s_;
+  std::size_t ways_asked_ = 0;
+};
+
+}  // namespace clearway
