@@ -34,12 +34,7 @@ MotionCheck::MotionCheck(const MotionContext& context, const RobotGeometry& robo
   bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
   bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
   if (context.options.world_at) return;
-  for (const auto& object : scene_.objects) {
-    const double spin_radps = object->velocity_O ? object->velocity_O->angular.norm() : 0;
-    fastest_object_mps_ =
-        std::max(fastest_object_mps_, object->SpeedMps() + spin_radps * object->solid->radius_m);
-  }
-  fastest_object_mps_ += options_.inflation_mps;
+  fastest_object_mps_ = context.index.fastest_mps() + options_.inflation_mps;
 }
 
 void MotionCheck::Answer(std::span<const Time> times, const Pose* T_W_L, const double* deviations_m,
@@ -306,7 +301,7 @@ std::optional<VoxelKey> MotionCheck::TouchedVoxel(Time t, const StateAnswer& sta
     FirstTouch touch;
     if (object != nullptr) {
       const PredictedPose at = PredictPose(*object, WorldTime(t), scene_.params.horizon);
-      if (at.beyond_horizon_radius_m || scene_.params.solid != SolidMode::kVoxels) continue;
+      if (at.beyond_horizon_radius_m || object->FillsHull(scene_.params.solid)) continue;
       here.shape_F = here.shape_F.In(Inverse(at.T_W_O));
       here.margin_m += InflationOf(*object, WorldTime(t), options_);
       touch = TouchOccupied(object->map_O, here, 1);

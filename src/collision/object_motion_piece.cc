@@ -13,7 +13,7 @@ ObjectPiece Resting(const Pose& T_W_O, Time from, Time until) {
   return piece;
 }
 
-// Between two poses of the history, as Interpolate.
+// Between two poses, known or stated, as Interpolate.
 ObjectPiece Between(const StampedPose& before, const StampedPose& after, Time from, Time last) {
   ObjectPiece piece = Resting(before.T_W_O, from, std::min(last, after.stamp));
   piece.start = before.stamp;
@@ -25,19 +25,18 @@ ObjectPiece Between(const StampedPose& before, const StampedPose& after, Time fr
 }  // namespace
 
 ObjectPiece PieceFrom(const MovingObject& object, Time t, Time last, Duration horizon) {
-  const std::vector<StampedPose>& history = object.history;
-  const StampedPose &oldest = history.front(), &newest = history.back();
+  const StampedPose &oldest = object.history.front(), &newest = object.LastPose();
   if (t < oldest.stamp) return Resting(oldest.T_W_O, t, std::min(last, oldest.stamp));
   if (t < newest.stamp) {
-    const auto after = std::upper_bound(history.begin(), history.end(), t,
-                                        [](Time a, const StampedPose& b) { return a < b.stamp; });
-    return Between(*(after - 1), *after, t, last);
+    const auto [before, after] = object.IntervalAt(t);
+    return Between(*before, *after, t, last);
   }
-  if (object.AtRest()) return Resting(newest.T_W_O, t, last);
+  const Twist velocity_O = object.LastVelocity();
+  if (velocity_O == Twist{}) return Resting(newest.T_W_O, t, last);
   const Time end = newest.stamp + horizon;
   ObjectPiece piece = Resting(newest.T_W_O, t, last);
   piece.start = newest.stamp;
-  piece.velocity_O = *object.velocity_O;
+  piece.velocity_O = velocity_O;
   if (t < end) {
     piece.until = std::min(last, end);
     return piece;
@@ -47,7 +46,7 @@ ObjectPiece PieceFrom(const MovingObject& object, Time t, Time last, Duration ho
   piece.velocity_O = {};
   piece.beyond_horizon = true;
   piece.radius_m = object.solid->radius_m;
-  piece.growth_mps = object.SpeedMps();
+  piece.growth_mps = velocity_O.linear.norm();
   return piece;
 }
 

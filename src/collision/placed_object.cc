@@ -28,7 +28,7 @@ ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
   hulls.reserve(scene.objects.size());
   for (const auto& object : scene.objects) {
     const bool wanted =
-        scene.params.solid == SolidMode::kConvexHull && !object->solid->hull->triangles.empty();
+        object->FillsHull(scene.params.solid) && !object->solid->hull->triangles.empty();
     hulls.push_back(wanted
                         ? std::make_unique<const ShapeGeometry>(ConvexPolytope{object->solid->hull})
                         : nullptr);

@@ -23,7 +23,7 @@ double InflationOf(const MovingObject& object, Time t, const CheckOptions& optio
 // and to its hull.
 struct PlacedObject {
   const MovingObject* object = nullptr;
-  const ShapeGeometry* hull = nullptr;  // null with SolidMode::kVoxels
+  const ShapeGeometry* hull = nullptr;  // null if its voxels alone count
   Pose T_W_O;
   Pose T_O_W;
   std::optional<double> ball_radius_m;  // about O's origin

@@ -1,5 +1,7 @@
 #include "clearway/collision/scene_checker.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "collision/motion_check.h"
@@ -10,8 +12,23 @@
 namespace clearway {
 namespace {
 
-// Of the time for which there are predictions.
-constexpr int kTimeSlices = 8;
+// Of the time for which there are predictions, which stated futures make longer; of more than this
+// the index knows nothing.
+constexpr int kTimeSlices = 8, kMostTimeSlices = 64;
+constexpr Duration kLongestIndexed = std::chrono::minutes(10);
+
+ObjectIndex IndexOf(const SceneSnapshot& scene) {
+  const Duration horizon = scene.params.horizon;
+  Time end = scene.stamp + horizon;
+  for (const auto& object : scene.objects) {
+    if (!object->future.empty()) end = std::max(end, object->LastPose().stamp + horizon);
+  }
+  end = std::min(end, scene.stamp + std::max(horizon, kLongestIndexed));
+  const double horizons =
+      ToSeconds(end - scene.stamp) / std::max(1e-3, ToSeconds(scene.params.horizon));
+  const int slices = static_cast<int>(std::min<double>(kMostTimeSlices, kTimeSlices * horizons));
+  return ObjectIndex(scene, scene.stamp, end, std::max(kTimeSlices, slices));
+}
 
 }  // namespace
 
@@ -23,9 +40,8 @@ struct SceneChecker::Impl {
 };
 
 SceneChecker::SceneChecker(ScenePtr scene, std::shared_ptr<const PreparedRobot> robot)
-    : impl_(std::make_unique<const Impl>(Impl{
-          scene, std::move(robot), PrepareHulls(*scene),
-          ObjectIndex(*scene, scene->stamp, scene->stamp + scene->params.horizon, kTimeSlices)})) {}
+    : impl_(std::make_unique<const Impl>(
+          Impl{scene, std::move(robot), PrepareHulls(*scene), IndexOf(*scene)})) {}
 
 SceneChecker::SceneChecker(ScenePtr scene, Robot robot)
     : SceneChecker(std::move(scene), std::make_shared<const PreparedRobot>(std::move(robot))) {}

@@ -1,5 +1,6 @@
 #include "clearway/io/flatten_scene.h"
 
+#include <cmath>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -58,9 +59,27 @@ void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last,
   }
 }
 
+// The voxels that a given object may touch.
+void BlockShapeOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, VoxelMap& map) {
+  const VoxelGrid& grid = map.grid();
+  const double half_diagonal_m = 0.5 * std::sqrt(3.0) * grid.resolution_m();
+  const Aabb box_W = Intersection(placed.box_W, KnownBox(scene));
+  if (box_W.Empty()) return;
+  const VoxelKey first = grid.KeyOf(box_W.min), last = grid.KeyOf(box_W.max);
+  for (VoxelKey key = first; key.z <= last.z; ++key.z) {
+    for (key.y = first.y; key.y <= last.y; ++key.y) {
+      for (key.x = first.x; key.x <= last.x; ++key.x) {
+        const Eigen::Vector3d p_O = placed.T_O_W * grid.CenterOf(key);
+        if (NearHull(*placed.object->solid->hull, p_O, half_diagonal_m)) Block(map, key);
+      }
+    }
+  }
+}
+
 // An object thinner than a voxel can lie between the voxels' centres.
 void BlockVoxelsOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, VoxelMap& map) {
   if (placed.beyond_horizon_radius_m) return;
+  if (placed.object->given()) return BlockShapeOf(scene, placed, map);
   const VoxelMap& map_O = placed.object->map_O;
   map_O.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
     block.occupied.ForEach([&](int index) {

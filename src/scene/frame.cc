@@ -18,12 +18,6 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
 // epoch of the sensors.
 constexpr std::int64_t kLargestStamp_ns = std::int64_t{1} << 62;
 
-absl::Status CheckStamp(const std::string& field, Time stamp) {
-  const std::int64_t ns = ToNanoseconds(stamp);
-  if (ns >= -kLargestStamp_ns && ns <= kLargestStamp_ns) return absl::OkStatus();
-  return Invalid(field, absl::StrCat("is ", ns, "; it must lie within 2^62 ns of zero"));
-}
-
 absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   const std::size_t points = frame.points_S.size();
   if (points > limits.max_points) {
@@ -77,7 +71,7 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
                                               kMaxTurn_rad, " rad (its direction is ambiguous)"));
   }
   const std::string from_field = absl::StrCat(field, ".from_stamp_ns");
-  if (auto status = CheckStamp(from_field, motion.from); !status.ok()) return status;
+  if (auto status = ValidateStamp(from_field, motion.from); !status.ok()) return status;
   if (motion.from >= frame.stamp) {
     return Invalid(from_field,
                    absl::StrCat("is ", ToNanoseconds(motion.from),
@@ -87,6 +81,12 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
 }
 
 }  // namespace
+
+absl::Status ValidateStamp(const std::string& field, Time stamp) {
+  const std::int64_t ns = ToNanoseconds(stamp);
+  if (ns >= -kLargestStamp_ns && ns <= kLargestStamp_ns) return absl::OkStatus();
+  return Invalid(field, absl::StrCat("is ", ns, "; it must lie within 2^62 ns of zero"));
+}
 
 absl::Status ValidatePose(const std::string& field, const Pose& pose, double max_coordinate_m) {
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) {
@@ -108,7 +108,7 @@ absl::Status ValidatePose(const std::string& field, const Pose& pose, double max
 }
 
 absl::Status Validate(const Frame& frame, const FrameLimits& limits) {
-  if (auto status = CheckStamp("stamp_ns", frame.stamp); !status.ok()) return status;
+  if (auto status = ValidateStamp("stamp_ns", frame.stamp); !status.ok()) return status;
   if (auto status = ValidatePose("world_from_sensor", frame.T_W_S, limits.max_coordinate_m);
       !status.ok()) {
     return status;

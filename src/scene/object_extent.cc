@@ -14,22 +14,27 @@ namespace {
 // Slower than this, a direction of motion is noise.
 constexpr double kMovingMps = 0.5;
 
-// The centres of the occupied voxels, as far as an upright box is concerned.
+// The centres of the occupied voxels, or a given object's corners, as far as an upright box is
+// concerned.
 struct Footprint {
   Polygon outline_O;
   double min_z_m = std::numeric_limits<double>::infinity(), max_z_m = -min_z_m;
 };
 
-Footprint FootprintOf(const VoxelMap& map_O) {
+Footprint FootprintOf(const MovingObject& object) {
   Footprint footprint;
   std::vector<Eigen::Vector2d> points_O;
-  map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
-    block.occupied.ForEach([&](int index) {
-      const Eigen::Vector3d p_O = map_O.grid().CenterOf(VoxelAt(block_key, index));
-      points_O.push_back(p_O.head<2>());
-      footprint.min_z_m = std::min(footprint.min_z_m, p_O.z());
-      footprint.max_z_m = std::max(footprint.max_z_m, p_O.z());
-    });
+  const auto add = [&](const Eigen::Vector3d& p_O) {
+    points_O.push_back(p_O.head<2>());
+    footprint.min_z_m = std::min(footprint.min_z_m, p_O.z());
+    footprint.max_z_m = std::max(footprint.max_z_m, p_O.z());
+  };
+  if (object.given()) {
+    for (const Eigen::Vector3d& vertex_O : object.solid->hull->vertices) add(vertex_O);
+  }
+  object.map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
+    block.occupied.ForEach(
+        [&](int index) { add(object.map_O.grid().CenterOf(VoxelAt(block_key, index))); });
   });
   footprint.outline_O = ConvexOutline(points_O);
   // Too thin for an outline: any of them bounds it.
@@ -66,12 +71,12 @@ ObjectExtent SmallestExtent(const Footprint& footprint) {
 }  // namespace
 
 ObjectExtent ExtentOf(const MovingObject& object) {
-  if (object.map_O.occupied_count() == 0) return {};
-  const Footprint footprint = FootprintOf(object.map_O);
+  if (object.map_O.occupied_count() == 0 && !object.given()) return {};
+  const Footprint footprint = FootprintOf(object);
   ObjectExtent best = SmallestExtent(footprint);
   constexpr double kPi = std::numbers::pi;
   if (best.size_m.x() < best.size_m.y()) best = ExtentAt(footprint, best.yaw_rad + kPi / 2);
-  best.size_m = best.size_m.cwiseMax(object.map_O.grid().resolution_m());
+  if (!object.given()) best.size_m = best.size_m.cwiseMax(object.map_O.grid().resolution_m());
   if (object.velocity_O && object.velocity_O->linear.norm() >= kMovingMps) {
     const Eigen::Vector2d length(std::cos(best.yaw_rad), std::sin(best.yaw_rad));
     const bool backwards = length.dot(object.velocity_O->linear.head<2>()) < 0;

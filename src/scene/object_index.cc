@@ -1,6 +1,7 @@
 #include "clearway/scene/object_index.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace clearway {
 namespace {
@@ -23,6 +24,31 @@ Aabb OriginsOf(const std::vector<StampedPose>& history) {
   return way_W;
 }
 
+// From one pose to a later one the origin goes along a screw that turns by at most half a turn. The
+// sine of half of the turn tells how much it strays:
+double SineOfHalfTurn(const Pose& T_W_A, const Pose& T_W_B) {
+  return std::min(1.0, (T_W_A.rotation.conjugate() * T_W_B.rotation).vec().norm());
+}
+
+// Along a screw that turns by `a` the origin's acceleration, by shares of the time, is a^2 times
+// the radius, which is at most chord / (2 sin(a / 2)): it strays by an eighth of that in the
+// middle. And a / 2 <= pi / 2 sin(a / 2).
+double StraysBy(const Pose& T_W_A, const Pose& T_W_B) {
+  constexpr double kPi = std::numbers::pi;
+  const double chord_m = (T_W_B.translation - T_W_A.translation).norm();
+  return kPi * kPi / 16 * SineOfHalfTurn(T_W_A, T_W_B) * chord_m;
+}
+
+// An arc of half a turn or less is longer than its chord by (a / 2) / sin(a / 2) at most, and that
+// quotient is convex in the sine.
+double FastestBetween(const StampedPose& before, const StampedPose& after, double radius_m) {
+  constexpr double kPi = std::numbers::pi;
+  const double sine = SineOfHalfTurn(before.T_W_O, after.T_W_O);
+  const double chord_m = (after.T_W_O.translation - before.T_W_O.translation).norm();
+  const double way_m = (1 + (kPi / 2 - 1) * sine) * chord_m + kPi * sine * radius_m;
+  return way_m / ToSeconds(after.stamp - before.stamp);
+}
+
 constexpr double kRounding_m = 1e-6;
 
 // A ball of this radius about the object's origin holds all of it.
@@ -36,17 +62,78 @@ double RadiusOf(const MovingObject& object) {
 // Along a screw the origin's velocity turns: its acceleration is the angular velocity's cross
 // product with it, of the same length at all times.
 ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horizon) {
-  const StampedPose& newest = object.history.back();
-  const Twist velocity_O = object.velocity_O.value_or(Twist{});
+  const StampedPose& newest = object.LastPose();
+  const Twist velocity_O = object.LastVelocity();
   Ball ball;
-  ball.t_k = newest.stamp;
+  ball.t_k = object.t_k();
+  ball.last = newest.stamp;
   ball.origin_W = newest.T_W_O.translation;
   ball.velocity_W = newest.T_W_O.rotation * velocity_O.linear;
   ball.radius_m = RadiusOf(object);
   ball.horizon_s = ToSeconds(horizon);
   ball.bend_mps2 = 0.5 * velocity_O.angular.cross(velocity_O.linear).norm();
-  ball.beyond_mps = object.SpeedMps();
+  ball.beyond_mps = velocity_O.linear.norm();
+  if (object.future.empty()) return ball;
+  ball.way.reserve(object.future.size() + 1);
+  const StampedPose* before = &object.history.back();
+  for (const StampedPose& after : object.future) {
+    ball.way.push_back(
+        {before->stamp, before->T_W_O.translation, StraysBy(before->T_W_O, after.T_W_O)});
+    before = &after;
+  }
+  ball.way.push_back({newest.stamp, newest.T_W_O.translation, 0});
   return ball;
+}
+
+double ObjectIndex::FastestMps(const MovingObject& object, const Ball& ball) {
+  const double radius_m = object.solid->radius_m;
+  double fastest_mps = ball.beyond_mps + object.LastVelocity().angular.norm() * radius_m;
+  const StampedPose* before = &object.history.back();
+  for (const StampedPose& after : object.future) {
+    fastest_mps = std::max(fastest_mps, FastestBetween(*before, after, radius_m));
+    before = &after;
+  }
+  return fastest_mps;
+}
+
+std::size_t ObjectIndex::Ball::WaypointAt(Time t) const {
+  const auto next = std::upper_bound(way.begin(), way.end(), t,
+                                     [](Time a, const Waypoint& b) { return a < b.stamp; });
+  return static_cast<std::size_t>(next - way.begin()) - 1;
+}
+
+ObjectIndex::Ball::Reach ObjectIndex::Ball::DuringWay(std::size_t i, Time from, Time until,
+                                                      double inflation_mps) const {
+  const Waypoint &before = way[i], &after = way[i + 1];
+  const double all_s = ToSeconds(after.stamp - before.stamp);
+  const double begins = ToSeconds(std::max(from, before.stamp) - before.stamp) / all_s;
+  const double ends = ToSeconds(std::min(until, after.stamp) - before.stamp) / all_s;
+  const Eigen::Vector3d way_W = after.origin_W - before.origin_W;
+  return {before.origin_W + 0.5 * (begins + ends) * way_W,
+          radius_m + before.strays_m + 0.5 * (ends - begins) * way_W.norm() +
+              ToSeconds(until - t_k) * inflation_mps};
+}
+
+bool ObjectIndex::Ball::MeetsOnWay(const Aabb& box_W, Time from, Time until,
+                                   double inflation_mps) const {
+  for (std::size_t i = WaypointAt(from); i + 1 < way.size() && way[i].stamp <= until; ++i) {
+    if (DuringWay(i, from, until, inflation_mps).Meets(box_W)) return true;
+  }
+  return until > last && During(last, until, inflation_mps).Meets(box_W);
+}
+
+std::optional<std::array<ObjectIndex::Ball::Reach, 2>> ObjectIndex::Ball::Straight(
+    Time from, Time until, double inflation_mps) const {
+  if (from < t_k) return std::nullopt;
+  if (from < last) {
+    const std::size_t i = WaypointAt(from);
+    if (until > way[i + 1].stamp) return std::nullopt;
+    return {{DuringWay(i, from, from, inflation_mps), DuringWay(i, until, until, inflation_mps)}};
+  }
+  if (ToSeconds(from - last) < horizon_s && ToSeconds(until - last) > horizon_s) {
+    return std::nullopt;
+  }
+  return {{During(from, from, inflation_mps), During(until, until, inflation_mps)}};
 }
 
 // A box round everything of the object from `first` to `last`. Before t_k it moves between the
@@ -54,10 +141,17 @@ ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horiz
 Aabb ObjectIndex::ReachOf(const MovingObject& object, const Ball& ball, Time first, Time last) {
   Aabb reach_W;
   if (first < ball.t_k) reach_W = OriginsOf(object.history).Padded(ball.radius_m);
-  if (last >= ball.t_k) {
-    const auto [center_W, radius_m] = ball.During(std::max(first, ball.t_k), last, 0);
-    reach_W.Extend(Aabb{center_W, center_W}.Padded(radius_m));
+  const auto extend = [&reach_W](const Ball::Reach& reach) {
+    reach_W.Extend(Aabb{reach.center_W, reach.center_W}.Padded(reach.radius_m));
+  };
+  if (first < ball.last && last >= ball.t_k) {
+    const Time from = std::max(first, ball.t_k);
+    for (std::size_t i = ball.WaypointAt(from);
+         i + 1 < ball.way.size() && ball.way[i].stamp <= last; ++i) {
+      extend(ball.DuringWay(i, from, last, 0));
+    }
   }
+  if (last >= ball.last) extend(ball.During(std::max(first, ball.last), last, 0));
   return reach_W;
 }
 
@@ -80,6 +174,7 @@ ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int 
   std::vector<Aabb> reaches_W;  // slice by slice
   for (const auto& object : scene.objects) {
     balls_.push_back(BallOf(*object, scene.params.horizon));
+    fastest_mps_ = std::max(fastest_mps_, FastestMps(*object, balls_.back()));
     oldest_t_k_ = std::min(oldest_t_k_, object->t_k());
   }
   for (int slice = 0; slice < slices; ++slice) {
@@ -98,13 +193,11 @@ ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int 
   }
 }
 
-// Seen from the object, the ball's centre goes straight: on one side of the horizon its own does.
+// Seen from the object, the ball's centre goes straight: where its own does.
 bool ObjectIndex::MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const {
-  const Ball& own = balls_[object];
-  const double since_s = ToSeconds(ball.from - own.t_k), until_s = ToSeconds(ball.until - own.t_k);
-  if (since_s < 0 || (since_s < own.horizon_s && until_s > own.horizon_s)) return true;
-  const Ball::Reach begins = own.During(ball.from, ball.from, inflation_mps);
-  const Ball::Reach ends = own.During(ball.until, ball.until, inflation_mps);
+  const auto straight = balls_[object].Straight(ball.from, ball.until, inflation_mps);
+  if (!straight) return true;
+  const auto& [begins, ends] = *straight;
   const Eigen::Vector3d apart_W = ball.from_W - begins.center_W;
   const Eigen::Vector3d way_W = ball.until_W - ends.center_W - apart_W;
   const double squared = way_W.squaredNorm();

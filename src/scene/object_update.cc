@@ -7,25 +7,7 @@
 namespace clearway {
 namespace {
 
-// Whether the step is nothing but rounding: it moves no point within 10 m of O by more than 1e-8 m.
-// (Coordinates of 100 km are rounded to 1.5e-11 m, and a motion about the world's origin to more.)
-bool IsRounding(const Twist& step) {
-  constexpr double kReach_m = 10, kRounding_m = 1e-8;
-  return step.linear.norm() + kReach_m * step.angular.norm() < kRounding_m;
-}
-
-// Zero for an object that stands still. Of about half a turn nobody knows the direction: then the
-// translation alone counts.
-Twist VelocityBetween(const Pose& T_W_O1, Time t1, const Pose& T_W_O2, Time t2) {
-  Twist step = Log(Inverse(T_W_O1) * T_W_O2);
-  if (IsRounding(step)) return {};
-  if (step.angular.norm() > kMaxTurn_rad) {
-    step = {Eigen::Vector3d::Zero(),
-            T_W_O1.rotation.conjugate() * (T_W_O2.translation - T_W_O1.translation)};
-  }
-  return (1.0 / ToSeconds(t2 - t1)) * step;
-}
-
+// Poses to come whose time has come are forgotten: the new one counts.
 void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.t_k() == pose.stamp) {
     object.history.back() = pose;
@@ -36,6 +18,7 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
       std::find_if(object.history.begin(), object.history.end() - 1,
                    [&](const StampedPose& p) { return p.stamp >= pose.stamp - history; });
   object.history.erase(object.history.begin(), keep);
+  if (!object.future.empty()) object.future = FutureAfter(object.future, pose.stamp);
 }
 
 // Whether nothing of the object went further than `distance_m` in the rest window before its newest
@@ -109,7 +92,7 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
   const Pose& T_W_O = object.history.back().T_W_O;
   if (clue.motion != nullptr) {
     object.velocity_O =
-        VelocityBetween(Inverse(clue.motion->H_W) * T_W_O, clue.motion->from, T_W_O, stamp);
+        VelocityBetween({clue.motion->from, Inverse(clue.motion->H_W) * T_W_O}, {stamp, T_W_O});
   }
   if (clue.pose != nullptr) object.T_B_O = Inverse(clue.pose->T_W_B) * T_W_O;
   return object;
@@ -120,7 +103,7 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
   if (clue.motion != nullptr) {
     const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
     const Pose T_W_O = clue.motion->H_W * T_W_from;  // eq. 2
-    object.velocity_O = VelocityBetween(T_W_from, clue.motion->from, T_W_O, stamp);
+    object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
     Remember(object, {stamp, T_W_O}, params.history);
     object.bridged = false;
   } else if (clue.pose != nullptr) {
@@ -129,11 +112,14 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
     }
     const Pose T_W_O = clue.pose->T_W_B * *object.T_B_O;
     if (const StampedPose* before = LastBefore(object, stamp)) {
-      object.velocity_O = VelocityBetween(before->T_W_O, before->stamp, T_W_O, stamp);
+      object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
     }
     Remember(object, {stamp, T_W_O}, params.history);
     object.bridged = false;
   } else if (!clue.points.empty() && object.t_k() < stamp) {
+    // Bridged to its future's end or beyond it, it goes on as it did there.
+    const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
+    if (outlived) object.velocity_O = object.LastVelocity();
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;
   }
@@ -144,9 +130,11 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
 
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
                 const SceneParams& params) {
+  if (stamp < object.t_k()) return true;
   if (clue.pose != nullptr && object.T_B_O) return false;
   const Time needed = clue.motion != nullptr ? clue.motion->from : stamp;
-  return !object.AtRest() && needed - object.t_k() > params.horizon;
+  const bool goes_on = !(object.LastVelocity() == Twist{});
+  return goes_on && needed - object.LastPose().stamp > params.horizon;
 }
 
 void AddPoints(MovingObject& object, const LabelledCloud& cloud,

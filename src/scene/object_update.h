@@ -29,7 +29,7 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
 
 // Whether the object was unplaced for so long that nothing tells where O is in this frame: a motion
 // that starts, or a prediction that would have to reach, beyond the horizon. Its model has to be
-// begun anew.
+// begun anew. Nor does a frame from before the pose of a given object tell where that one is.
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
                 const SceneParams& params);
 

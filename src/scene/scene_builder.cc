@@ -4,13 +4,23 @@
 
 #include "absl/strings/str_cat.h"
 #include "scene/dropped_object.h"
+#include "scene/given_object.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
 
 namespace clearway {
 namespace {
 
-using Objects = std::vector<std::shared_ptr<const MovingObject>>;
+// The points of given objects add nothing to them.
+void LeaveOutPointsOfGiven(const SceneObjects& objects, LabelledCloud& cloud, FrameReport& report) {
+  for (const auto& object : objects) {
+    if (!object->given()) continue;
+    const auto hits = cloud.object_hits.find(object->id);
+    if (hits == cloud.object_hits.end()) continue;
+    report.points_given += hits->second.size();
+    cloud.object_hits.erase(hits);
+  }
+}
 
 // By id, so that objects are visited in one order.
 std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& cloud) {
@@ -21,10 +31,11 @@ std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& 
   return clues;
 }
 
-// Whether the object is still the same one in this frame: not unseen for too long, and if it is
-// seen again, then where its frame is known.
+// Whether the object is still the same one in this frame: given, or not unseen for too long, and if
+// it is seen again, then where its frame is known.
 bool Continues(const MovingObject& object, const std::map<ObjectId, ObjectClue>& clues, Time stamp,
                const SceneParams& params) {
+  if (object.given()) return true;
   if (stamp - object.last_seen > params.object_lifetime) return false;
   const auto clue = clues.find(object.id);
   return clue == clues.end() || clue->second.points.empty() ||
@@ -90,7 +101,8 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
 
   FrameReport report;
-  const LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.static_map_W;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
   const std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);

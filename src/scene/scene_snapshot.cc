@@ -42,6 +42,13 @@ class ContentHasher {
     Add(static_cast<std::int64_t>(boxes.size()));
     for (const Aabb& box : boxes) Add(box);
   }
+  void Add(const std::vector<StampedPose>& poses) {
+    Add(static_cast<std::int64_t>(poses.size()));
+    for (const StampedPose& pose : poses) {
+      Add(pose.stamp);
+      Add(pose.T_W_O);
+    }
+  }
   void Add(const VoxelMap& map) {
     Add(map.grid().resolution_m());
     Add(static_cast<std::int64_t>(map.blocks().size()));
@@ -54,6 +61,8 @@ class ContentHasher {
   }
   void Add(const SceneParams& params);
   void Add(const MovingObject& object);
+  void Add(const Shape& shape);
+  void Add(const Mesh& mesh);
 
   std::string HexDigest() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(state_);
@@ -89,23 +98,51 @@ void ContentHasher::Add(const SceneParams& params) {
 void ContentHasher::Add(const MovingObject& object) {
   Add(std::int64_t{object.id});
   Add(object.map_O);
-  Add(static_cast<std::int64_t>(object.history.size()));
-  for (const StampedPose& entry : object.history) {
-    Add(entry.stamp);
-    Add(entry.T_W_O);
-  }
+  Add(object.history);
   Add(object.velocity_O);
   Add(object.T_B_O);
   Add(object.first_seen);
   Add(object.last_seen);
   Add(std::int64_t{object.frames_seen});
   Add(std::int64_t{object.bridged});
+  Add(object.future);
+  Add(std::int64_t{object.given()});
+  if (object.given()) Add(*object.given_shape);
+}
+
+void ContentHasher::Add(const Shape& shape) {
+  Add(static_cast<std::int64_t>(shape.index()));
+  struct Sizes {
+    ContentHasher& hasher;
+    void operator()(const Sphere& s) const { hasher.Add(s.radius_m); }
+    void operator()(const Box& s) const { hasher.Add(s.size_m); }
+    void operator()(const Capsule& s) const { (hasher.Add(s.radius_m), hasher.Add(s.length_m)); }
+    void operator()(const Cylinder& s) const { (hasher.Add(s.radius_m), hasher.Add(s.length_m)); }
+    void operator()(const ConvexPolytope& s) const { hasher.Add(*s.mesh); }
+    void operator()(const TriangleMesh& s) const { hasher.Add(*s.mesh); }
+  };
+  std::visit(Sizes{*this}, shape);
+}
+
+void ContentHasher::Add(const Mesh& mesh) {
+  Add(static_cast<std::int64_t>(mesh.vertices.size()));
+  for (const Eigen::Vector3d& vertex : mesh.vertices) Add(vertex);
+  Add(static_cast<std::int64_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    XXH3_128bits_update(state_, triangle.data(), sizeof triangle);
+  }
+}
+
+bool SameShape(const MovingObject& a, const MovingObject& b) {
+  return a.given_shape == b.given_shape ||
+         (a.given() && b.given() && *a.given_shape == *b.given_shape);
 }
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
-  return a.id == b.id && a.map_O == b.map_O && a.history == b.history &&
-         a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
-         a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged;
+  return a.id == b.id && a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
+         SameShape(a, b) && a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O &&
+         a.first_seen == b.first_seen && a.last_seen == b.last_seen &&
+         a.frames_seen == b.frames_seen && a.bridged == b.bridged;
 }
 
 }  // namespace

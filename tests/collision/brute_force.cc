@@ -151,7 +151,8 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
   Obstacle obstacle;
   obstacle.id = object.id;
   obstacle.pose_W = AsIsometry(predicted.T_W_O);
-  const bool rests = object.velocity_O.has_value() && *object.velocity_O == Twist{};
+  const bool rests =
+      object.future.empty() && object.velocity_O.has_value() && *object.velocity_O == Twist{};
   if (!(options.inflate_moving_only && rests)) {
     obstacle.margin_m = options.inflation_mps * std::max(0.0, ToSeconds(time - object.t_k()));
   }
@@ -160,7 +161,7 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
     obstacle.radius_m = *predicted.beyond_horizon_radius_m;
     obstacle.geometry = BallSizes(obstacle.radius_m);
     obstacles.push_back(obstacle);
-  } else if (scene->params.solid == SolidMode::kConvexHull) {
+  } else if (scene->params.solid == SolidMode::kConvexHull || object.given()) {
     obstacle.radius_m = object.solid->radius_m;
     obstacle.geometry = HullSizes(*object.solid);
     obstacles.push_back(obstacle);

@@ -54,6 +54,18 @@ std::vector<VoxelKey> RandomWorld::Blob() {
   return keys;
 }
 
+// One to four poses, sometimes at rest in the end.
+std::vector<StampedPose> RandomWorld::Future(double after_s) {
+  std::vector<StampedPose> poses;
+  double stamp_s = after_s;
+  for (int left = 1 + Below(4); left > 0; --left) {
+    stamp_s += Uniform(0.1, 0.9);
+    poses.push_back({TestTime(stamp_s), AnyPose(kRegion)});
+  }
+  if (Below(3) == 0) poses.push_back({TestTime(stamp_s + 0.2), poses.back().T_W_O});
+  return poses;
+}
+
 ScenePtr RandomWorld::Scene() {
   SceneParams params;
   params.resolution_m = Below(2) ? 0.2 : 0.16;
@@ -81,7 +93,11 @@ ScenePtr RandomWorld::Scene() {
     world.Object(id, Blob(),
                  {{TestTime(stamp_s - 1), first}, {TestTime(stamp_s), first * Exp(velocity)}},
                  id == 40 ? std::nullopt : std::optional(velocity));
+    if (id == 7 && Below(2)) world.Future(Future(stamp_s));
   }
+  const Twist velocity{Point({{-1, -1, -1}, {1, 1, 1}}), Point({{-1, -1, -1}, {1, 1, 1}})};
+  if (Below(2)) world.Given(41, ShapeOfKind(Below(5)), AnyPose(kRegion), velocity);
+  if (Below(2)) world.Given(43, ShapeOfKind(Below(5)), AnyPose(kRegion), {}, Future(0));
   return world.Scene();
 }
 

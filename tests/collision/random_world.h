@@ -15,7 +15,7 @@ class RandomWorld {
   explicit RandomWorld(std::uint32_t seed) : random_(seed) {}
 
   // A region of about 4 x 4 x 2 m with free, occupied and unknown voxels, keep-out boxes, and
-  // moving, turning and resting objects; both kinds of solid occur.
+  // moving, turning and resting objects, some with a future, some given; both kinds of solid occur.
   ScenePtr Scene();
   Shape AnyShape();
   Shape ShapeOfKind(std::size_t kind);  // an index of Shape
@@ -34,6 +34,7 @@ class RandomWorld {
 
  private:
   std::vector<VoxelKey> Blob();
+  std::vector<StampedPose> Future(double after_s);
 
   std::mt19937 random_;
 };

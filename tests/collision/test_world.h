@@ -54,6 +54,30 @@ class TestWorld {
     return *this;
   }
 
+  // A given one, at T_W_O at TestTime(stamp_s).
+  TestWorld& Given(ObjectId id, const Shape& shape, const Pose& T_W_O,
+                   std::optional<Twist> velocity_O = {}, std::vector<StampedPose> future = {},
+                   double stamp_s = 0) {
+    MovingObject object;
+    object.id = id;
+    object.map_O = VoxelMap(scene_.params.object_resolution_m, scene_.params.Model());
+    object.given_shape = std::make_shared<const Shape>(shape);
+    object.solid = SolidOf(shape);
+    object.first_seen = object.last_seen = TestTime(stamp_s);
+    object.history = {{TestTime(stamp_s), T_W_O}};
+    object.velocity_O = velocity_O;
+    object.future = std::move(future);
+    scene_.objects.push_back(std::make_shared<const MovingObject>(std::move(object)));
+    return *this;
+  }
+  // Of the object that was added last.
+  TestWorld& Future(std::vector<StampedPose> future) {
+    MovingObject object = *scene_.objects.back();
+    object.future = std::move(future);
+    scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
+    return *this;
+  }
+
   ScenePtr Scene() const { return std::make_shared<const SceneSnapshot>(scene_); }
 
  private:

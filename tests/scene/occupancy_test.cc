@@ -6,6 +6,7 @@
 
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
+#include "support/random_given.h"
 
 namespace clearway {
 namespace {
@@ -52,7 +53,7 @@ PointOccupancy BruteForce(const SceneSnapshot& scene, const Eigen::Vector3d& p_W
     } else {
       const Eigen::Vector3d p_O = Inverse(predicted.T_W_O) * p_W;
       const bool in_hull =
-          scene.params.solid == SolidMode::kConvexHull && NearHull(*object->solid->hull, p_O, 0);
+          object->FillsHull(scene.params.solid) && NearHull(*object->solid->hull, p_O, 0);
       if (look(object->map_O, p_O) == VoxelState::kOccupied || in_hull)
         says = SpaceStatus::kOccupied;
     }
@@ -84,7 +85,10 @@ TEST(Occupancy, AgreesWithBruteForceOnRandomScenes) {
     params.horizon = std::chrono::seconds(1);
     SceneBuilder builder(params, {}, pool);
     RandomFrames frames(seed);
-    for (int k = 0; k < 12; ++k) ASSERT_TRUE(builder.Apply(frames.Next()).ok());
+    for (int k = 0; k < 12; ++k) {
+      ASSERT_TRUE(builder.Apply(frames.Next()).ok());
+      testing_support::ChangeGivenRandomly(builder, random);
+    }
     const ScenePtr scene = builder.Publish();
     for (double ahead_s : {-1.0, 0.0, 0.5, 2.0}) {
       const Time t = scene->stamp + FromSeconds(ahead_s);

@@ -4,6 +4,7 @@
 
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
+#include "support/random_given.h"
 
 namespace clearway {
 namespace {
@@ -20,9 +21,11 @@ std::vector<ScenePtr> RandomVersions(unsigned seed, int count) {
   params.keep_distance_m = seed == 3 ? 3 : 0;  // blocks are removed, too
   SceneBuilder builder(params, {}, pool);
   RandomFrames frames(seed);
+  testing_support::Random given(seed);
   std::vector<ScenePtr> versions{builder.Publish()};
   for (int k = 0; k < count; ++k) {
     EXPECT_TRUE(builder.Apply(frames.Next()).ok());
+    testing_support::ChangeGivenRandomly(builder, given);
     if (k == count / 2) builder.ClearRegion({{-2, -2, -2}, {2, 2, 2}});
     if (k == count / 3) builder.SetKeepOut({{{0, 0, 0}, {1, 1, 1}}});
     if (k == 2 * count / 3 && seed == 5) builder.Reset();
@@ -118,6 +121,31 @@ TEST(SceneDelta, OfStatesMakesTheSceneOfTheStates) {
   EXPECT_LT(changed_states, changed);
 }
 
+// Neither a future that frames shorten nor a shape is sent again.
+TEST(SceneDelta, HoldsNewFuturesAndShapesAlone) {
+  ThreadPool pool(1);
+  SceneBuilder builder({}, {}, pool);
+  GivenObject given{9, Sphere{1}, {testing_support::At(0), Pose{}}, {}, {}};
+  for (int k = 1; k <= 10; ++k) {
+    given.future.push_back({testing_support::At(k), Pose::Translation(k, 0, 0)});
+  }
+  ASSERT_TRUE(builder.AddObject(given).ok());
+  const ScenePtr before = builder.Publish();
+  Frame frame = FrameAt(4);
+  frame.motions = {{9, Pose::Translation(4, 0.1, 0), testing_support::At(0)}};
+  ASSERT_TRUE(builder.Apply(frame).ok());
+  const ScenePtr after = builder.Publish();
+  ASSERT_EQ(after->objects[0]->future.size(), 6u);
+  const SceneDelta dut = Diff(before.get(), *after);
+  ASSERT_EQ(dut.objects.size(), 1u);
+  EXPECT_TRUE(dut.objects[0].keeps_future);
+  EXPECT_TRUE(dut.objects[0].future.empty());
+  EXPECT_TRUE(dut.objects[0].given);
+  EXPECT_EQ(dut.objects[0].given_shape, nullptr);
+  ExpectEqual(*Apply(before.get(), dut), *after);
+  EXPECT_NE(before->Hash(), after->Hash());
+}
+
 TEST(SceneDelta, HoldsChangedVoxelsAlone) {
   ThreadPool pool(1);
   SceneBuilder builder({}, {}, pool);
@@ -174,6 +202,30 @@ TEST_F(SceneDeltaRefusalTest, EmptyHistory) {
 
 TEST_F(SceneDeltaRefusalTest, HistoryThatDoesNotAscend) {
   delta_.objects[0].history.push_back(delta_.objects[0].history.front());
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, FutureThatDoesNotFollowTheHistory) {
+  delta_.objects[0].future = {delta_.objects[0].history.back()};
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, FutureThatThereIsNone) {
+  delta_.objects[0].keeps_future = true;
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_F(SceneDeltaRefusalTest, GivenWithoutAShapeOrWithABadOne) {
+  delta_.objects[0].map_O.clear();
+  delta_.objects[0].given = true;
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+  for (const double radius_m : {0.0, 1e9, std::nan("")}) {
+    delta_.objects[0].given_shape = std::make_shared<const Shape>(Sphere{radius_m});
+    EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+  }
+  delta_.objects[0].given_shape = std::make_shared<const Shape>(Sphere{1});
+  EXPECT_EQ(Code(), absl::StatusCode::kOk);
+  delta_.objects[0].given = false;
   EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
 }
 

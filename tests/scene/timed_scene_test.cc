@@ -5,6 +5,7 @@
 
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
+#include "support/random_given.h"
 
 namespace clearway {
 namespace {
@@ -42,6 +43,7 @@ TEST(TimedScene, SaysWhatPlacedObjectsSay) {
   int by_objects = 0, beyond = 0;
   for (int i = 0; i < 40; ++i) {
     ASSERT_TRUE(builder.Apply(frames.Next()).ok());
+    testing_support::ChangeGivenRandomly(builder, random);
     const ScenePtr scene = builder.Publish();
     TimedScene dut(*scene, scene->stamp + FromSeconds(-1), scene->stamp + FromSeconds(2));
     for (int k = 0; k < 400; ++k) {
@@ -94,6 +96,7 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
   int near = 0, spared = 0;
   for (int i = 0; i < 40; ++i) {
     ASSERT_TRUE(builder.Apply(frames.Next()).ok());
+    testing_support::ChangeGivenRandomly(builder, random);
     const ScenePtr scene = builder.Publish();
     const double first_s = random.Uniform(-2, 1), last_s = first_s + random.Uniform(0, 2);
     const double inflation_mps = random.Uniform(0, 1);

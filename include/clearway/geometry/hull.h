@@ -13,4 +13,9 @@ namespace clearway {
 // http://www.qhull.org.
 Mesh ConvexHullOf(std::span<const Eigen::Vector3d> points);
 
+// A convex polytope that holds the shape (of a mesh: its vertices), in G. It is the shape's convex
+// hull where that is a polytope; about a round shape it is circumscribed, and no point of it is
+// farther than 1 % of the radius from the shape.
+Mesh HullAround(const Shape& shape);
+
 }  // namespace clearway

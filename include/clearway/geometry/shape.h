@@ -5,50 +5,69 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "clearway/geometry/aabb.h"
 
 namespace clearway {
 
 struct Sphere {
   double radius_m = 0;
+  bool operator==(const Sphere&) const = default;
 };
 
 struct Box {
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // full lengths along x, y, z
+  bool operator==(const Box&) const = default;
 };
 
 // A cylinder along z of the given length with a half sphere at each end.
 struct Capsule {
   double radius_m = 0;
   double length_m = 0;  // of the cylindrical part
+  bool operator==(const Capsule&) const = default;
 };
 
 // Along z.
 struct Cylinder {
   double radius_m = 0;
   double length_m = 0;
+  bool operator==(const Cylinder&) const = default;
 };
 
 // Triangles over shared vertices, counter-clockwise seen from outside.
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;                // metres
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
+  bool operator==(const Mesh&) const = default;
 };
+
+// Whether both are null or of equal content.
+inline bool SameMesh(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b) {
+  return a == b || (a != nullptr && b != nullptr && *a == *b);
+}
 
 // The convex hull of the mesh's vertices; the mesh must be that hull (see ConvexHullOf in hull.h).
 struct ConvexPolytope {
   std::shared_ptr<const Mesh> mesh;
+  bool operator==(const ConvexPolytope& other) const { return SameMesh(mesh, other.mesh); }
 };
 
 // The surface of a mesh and, if it is closed, all that it encloses (see Contains).
 struct TriangleMesh {
   std::shared_ptr<const Mesh> mesh;
+  bool operator==(const TriangleMesh& other) const { return SameMesh(mesh, other.mesh); }
 };
 
 using Shape = std::variant<Sphere, Box, Capsule, Cylinder, ConvexPolytope, TriangleMesh>;
+
+// INVALID_ARGUMENT naming what of `field` is wrong: sizes that are not positive or above 100 m,
+// meshes that are empty or whose indices are out of range, hulls that have no volume, are not
+// convex or face inward. Takes time in proportion to a hull's triangles times its vertices.
+absl::Status Validate(const std::string& field, const Shape& shape);
 
 // The smallest axis-aligned box in G around the shape.
 Aabb BoundingBox(const Shape& shape);

@@ -71,6 +71,10 @@ struct FrameLimits {
 // stamp.
 absl::Status Validate(const Frame& frame, const FrameLimits& limits);
 
+// INVALID_ARGUMENT for a stamp of more than 2^62 ns either way: differences of stamps must not
+// overflow.
+absl::Status ValidateStamp(const std::string& field, Time stamp);
+
 // Checks one pose; `field` names it in the message.
 absl::Status ValidatePose(const std::string& field, const Pose& pose, double max_coordinate_m);
 

@@ -21,24 +21,40 @@ struct StampedPose {
   bool operator==(const StampedPose&) const = default;
 };
 
-// The part of space that an object fills, in O: the convex hull of its occupied voxels. Immutable.
+// The velocity of the constant screw from one pose to a later one. Zero for an object that stands
+// still, up to rounding. Of more than kMaxTurn_rad nobody knows the direction: then the translation
+// alone counts.
+Twist VelocityBetween(const StampedPose& before, const StampedPose& after);
+
+// The poses after `t_k`.
+std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Time t_k);
+
+// The part of space that an object fills, in O: the convex hull of its occupied voxels, or a hull
+// around the shape of a given object. Immutable.
 struct Solid {
   std::shared_ptr<const Mesh> hull;  // never null; empty if no voxel is occupied
-  Aabb box_O;                        // around the occupied voxels
+  Aabb box_O;                        // around the occupied voxels or the hull
   double radius_m = 0;               // of the smallest ball about O's origin that holds the hull
 };
 std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O);
+std::shared_ptr<const Solid> SolidOf(const Shape& shape);  // see HullAround
 
 // A moving object as of one scene version. Immutable once published; any thread may read it.
 struct MovingObject {
   ObjectId id = 0;
   VoxelMap map_O{0.1};  // hits in O
-  // Both follow from map_O (see WithMap).
+  // Of a given object, which was told and not seen (see given_object.h): in O, never a
+  // TriangleMesh. Null for a reconstructed one.
+  std::shared_ptr<const Shape> given_shape;
+  // Both follow from map_O (see WithMap) or given_shape.
   std::shared_ptr<const Solid> solid;
   Aabb observed_box_O;
 
   // Poses by ascending stamp; never empty. The last one, at t_k, is what predictions start from.
   std::vector<StampedPose> history;
+  // Poses to come, as somebody stated them, by ascending stamp, all after t_k; they count instead
+  // of the last motion.
+  std::vector<StampedPose> future;
   // Constant body-frame velocity of the last motion (rad/s, m/s at O's origin); none while no
   // motion is known.
   std::optional<Twist> velocity_O;
@@ -51,8 +67,25 @@ struct MovingObject {
   bool bridged = false;  // the last pose is a prediction: points came without a motion
 
   Time t_k() const { return history.back().stamp; }
-  bool AtRest() const;  // no motion known, or none but rounding
-  double SpeedMps() const { return velocity_O ? velocity_O->linear.norm() : 0.0; }
+  bool given() const { return given_shape != nullptr; }
+  // Whether its hull counts as occupied: its voxels alone may (SolidMode), if it has any.
+  bool FillsHull(SolidMode mode) const { return given() || mode == SolidMode::kConvexHull; }
+
+  // No motion and no future known, or none but rounding.
+  bool AtRest() const;
+  double SpeedMps() const;  // as it sets out from t_k
+
+  // The last pose that is known or stated: from here on it is extrapolated.
+  const StampedPose& LastPose() const { return future.empty() ? history.back() : future.back(); }
+  // The velocity of that: of the last motion, or of the future's last interval. Zero at rest.
+  Twist LastVelocity() const;
+  // The two poses in turn, known or stated, between which `t` lies: before->stamp <= t <
+  // after->stamp. `t` must lie between the first of them all and the last.
+  struct Interval {
+    const StampedPose* before;
+    const StampedPose* after;
+  };
+  Interval IntervalAt(Time t) const;
 };
 
 // The object with another map, its solid and box made to fit.
@@ -61,15 +94,16 @@ MovingObject WithMap(MovingObject object, VoxelMap map_O);
 // Where an object is at a time.
 struct PredictedPose {
   Pose T_W_O;
-  // Set beyond t_k + horizon: T_W_O is then the pose at the horizon's end, and the object may be
-  // anywhere in the ball of this radius about its origin (the swept bound: the solid's radius grown
-  // by the speed since).
+  // Set beyond the horizon, which counts from the last pose: T_W_O is then the pose at the
+  // horizon's end, and the object may be anywhere in the ball of this radius about its origin (the
+  // swept bound: the solid's radius grown by the speed since).
   std::optional<double> beyond_horizon_radius_m;
 };
 
 // T_W_O(t) (II-E): after t_k the last motion continued as a constant screw, before it the history
 // interpolated, before the history its first pose. An object at rest stays at its last pose for
-// ever.
+// ever. Where a future is stated, it is interpolated likewise, then its last interval continued,
+// and the horizon counts from its end.
 PredictedPose PredictPose(const MovingObject& object, Time t, Duration horizon);
 
 }  // namespace clearway

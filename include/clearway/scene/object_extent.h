@@ -17,9 +17,10 @@ struct ObjectExtent {
 // The smallest upright box around the centres of the object's occupied voxels, at least a voxel
 // each way: points lie anywhere in their voxels, so that is the best guess of how far apart the
 // surfaces are, while the voxels' corners (Solid::box_O) stick out of them. Its length, the longer
-// side, points forwards if the object moves. All zero for an object without an occupied voxel. The
-// smallest rectangle shares a side with the outline: Freeman and Shapira, "Determining the
-// Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve", 1975.
+// side, points forwards if the object moves. A given object's is the box around its solid. All zero
+// for an object without an occupied voxel. The smallest rectangle shares a side with the outline:
+// Freeman and Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed
+// Curve", 1975.
 ObjectExtent ExtentOf(const MovingObject& object);
 
 }  // namespace clearway

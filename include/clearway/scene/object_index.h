@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "clearway/scene/scene_snapshot.h"
@@ -45,42 +46,67 @@ class ObjectIndex {
   // Whether the object, grown likewise, may meet the ball on its way.
   bool MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const;
 
+  // No point of any object is faster from its t_k on.
+  double fastest_mps() const { return fastest_mps_; }
+
  private:
   static constexpr int kCells = 64;
 
-  // A ball that holds an object at any time from t_k on: its centre goes straight on until the
-  // horizon, from which the object's origin strays as it goes along a screw.
+  // One of the poses that a future is interpolated between. On its way to the next, the object's
+  // origin strays from the place that it would have if it went straight.
+  struct Waypoint {
+    Time stamp;
+    Eigen::Vector3d origin_W;
+    double strays_m;
+  };
+
+  // A ball that holds an object at any time from t_k on: its centre goes straight from one waypoint
+  // to the next, and from the last pose on until the horizon; the object's origin strays from it
+  // as it goes along a screw.
   struct Ball {
-    Time t_k;
-    Eigen::Vector3d origin_W, velocity_W;  // m/s, of the origin at t_k
-    double radius_m;                       // at t_k
+    Time t_k;                              // inflation counts from here
+    std::vector<Waypoint> way;             // from t_k to the last pose; empty without a future
+    Time last;                             // of the last pose
+    Eigen::Vector3d origin_W, velocity_W;  // m/s, of the origin at the last pose
+    double radius_m;                       // there
     double horizon_s;
     double bend_mps2;  // the origin strays by this times the square of the time
     double beyond_mps;
 
-    // Where it is in the middle of a time from t_k on, or for half of it before and after. The
-    // origin is never faster than beyond the horizon.
+    // Where it is in the middle of a time from the last pose on, or for half of it before and
+    // after. The origin is never faster than beyond the horizon.
     struct Reach {
       Eigen::Vector3d center_W;
       double radius_m;
+      bool Meets(const Aabb& box_W) const {
+        const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
+        return (nearest_W - center_W).squaredNorm() <= radius_m * radius_m;
+      }
     };
     Reach During(Time from, Time until, double inflation_mps) const {
       const double half_s = 0.5 * ToSeconds(until - from);
-      const double since_s = ToSeconds(from - t_k) + half_s;
+      const double since_s = ToSeconds(from - last) + half_s;
       const double ahead_s = std::min(since_s, horizon_s);
       return {origin_W + ahead_s * velocity_W, radius_m + ahead_s * ahead_s * bend_mps2 +
                                                    (since_s - ahead_s + half_s) * beyond_mps +
-                                                   (since_s + half_s) * inflation_mps};
+                                                   ToSeconds(until - t_k) * inflation_mps};
     }
+    // The same for the part of the time that falls between waypoint `i` and the next.
+    Reach DuringWay(std::size_t i, Time from, Time until, double inflation_mps) const;
+    // The waypoint from which it goes at `t`: between t_k and the last pose.
+    std::size_t WaypointAt(Time t) const;
+    bool MeetsOnWay(const Aabb& box_W, Time from, Time until, double inflation_mps) const;
+    // Where it is at both times, if its centre goes straight from one to the other.
+    std::optional<std::array<Reach, 2>> Straight(Time from, Time until, double inflation_mps) const;
     bool Meets(const Aabb& box_W, Time from, Time until, double inflation_mps) const {
       if (from < t_k) return true;
-      const auto [center_W, reach_m] = During(from, until, inflation_mps);
-      const Eigen::Vector3d nearest_W = center_W.cwiseMax(box_W.min).cwiseMin(box_W.max);
-      return (nearest_W - center_W).squaredNorm() <= reach_m * reach_m;
+      if (from >= last) return During(from, until, inflation_mps).Meets(box_W);
+      return MeetsOnWay(box_W, from, until, inflation_mps);
     }
   };
 
   static Ball BallOf(const MovingObject& object, Duration horizon);
+  static double FastestMps(const MovingObject& object, const Ball& ball);
   static Aabb ReachOf(const MovingObject& object, const Ball& ball, Time first, Time last);
   void Mark(std::size_t object, int slice, const Aabb& reach_W);
 
@@ -117,6 +143,7 @@ class ObjectIndex {
   Eigen::Vector3d low_, cells_per_m_;
   std::array<std::vector<std::uint64_t>, 3> cells_;  // by WordOf
   std::vector<Ball> balls_;                          // of the objects
+  double fastest_mps_ = 0;
 };
 
 inline ObjectIndex::Range ObjectIndex::RangeOf(const Aabb& box_W, Time from, Time until) const {

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 
 #include "absl/status/statusor.h"
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/ray_caster.h"
 #include "clearway/scene/frame.h"
+#include "clearway/scene/given_object.h"
 #include "clearway/scene/scene_snapshot.h"
 
 namespace clearway {
@@ -19,6 +22,8 @@ struct FrameReport {
   std::size_t points_not_finite = 0;
   std::size_t points_self = 0;  // on the robot's own body
   std::size_t points_out_of_bounds = 0;
+  // Of those used, the ones of given objects: their rays clear, and they hit nothing.
+  std::size_t points_given = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   std::size_t objects_created = 0;
   std::size_t objects_dropped = 0;  // one that begins anew is dropped and created
@@ -48,12 +53,34 @@ class SceneBuilder {
   // Makes the static map's voxels in the box unknown again.
   void ClearRegion(const Aabb& box_W);
   void SetKeepOut(std::vector<Aabb> boxes_W);
-  // The empty scene again; versions go on counting, and parameters, keep-out zones among them,
-  // stay.
+
+  // Objects that are told, not seen. Frames move them as they move others, but give them no points
+  // and never drop them. An error names the field and changes nothing; of many, all or none are
+  // applied, and it names the item ("objects[3].world_from_object").
+  // INVALID_ARGUMENT for ids below 1, shapes that Validate refuses, meshes that are not convex,
+  // poses, stamps and velocities that are not finite or beyond their limits, and futures as below;
+  // ALREADY_EXISTS for an id of the scene; RESOURCE_EXHAUSTED for more than FrameLimits allows, or
+  // meshes of more than kMaxGivenTriangles.
+  absl::Status AddObject(const GivenObject& object);
+  absl::Status AddObjects(std::span<const GivenObject> objects);
+  // Leaves nothing behind. NOT_FOUND for ids that are of no given object.
+  absl::Status RemoveObject(ObjectId id);
+  absl::Status RemoveObjects(std::span<const ObjectId> ids);
+  // Of any object. Poses whose time has come are forgotten, and with the last of them the object's
+  // last motion counts again. NOT_FOUND for an unknown id; INVALID_ARGUMENT for stamps that do not
+  // ascend or are not after the object's t_k; RESOURCE_EXHAUSTED for more than kMaxFuturePoses.
+  absl::Status SetFuture(ObjectId id, const std::vector<StampedPose>& poses);
+  absl::Status SetFutures(std::span<const ObjectFuture> futures);
+
+  // The empty scene again, without given objects; versions go on counting, and parameters,
+  // keep-out zones among them, stay.
   void Reset();
 
  private:
   absl::Status CheckFits(const Frame& frame) const;
+  // Takes over what `change` made of the scene's objects, unless it failed.
+  absl::Status ChangeObjects(
+      const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
 
   SceneSnapshot scene_;  // its version is the one published last
   FrameLimits limits_;

@@ -22,11 +22,18 @@ struct BlockDelta {
 
 using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
 
-// One object that is new or differs. All but the map is sent whole: it is small.
+// One object that is new or differs. All but the map, a known future and a known shape is sent
+// whole: it is small.
 struct ObjectDelta {
   ObjectId id = 0;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::vector<StampedPose> history;
+  std::vector<StampedPose> future;
+  // Instead of `future`: that of `from` without the poses up to t_k. A future is long, and frames
+  // shorten it.
+  bool keeps_future = false;
+  bool given = false;
+  std::shared_ptr<const Shape> given_shape;  // null: that of `from`, or none if it is not given
   std::optional<Twist> velocity_O;
   std::optional<Pose> T_B_O;
   Time first_seen;

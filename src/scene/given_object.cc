@@ -1,0 +1,197 @@
+#include "scene/given_object.h"
+
+#include <algorithm>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/geometry/hull.h"
+#include "clearway/map/voxel_key.h"
+
+namespace clearway {
+namespace {
+
+absl::Status Invalid(const std::string& field, const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
+}
+
+SceneObjects::iterator PlaceOf(ObjectId id, SceneObjects& objects) {
+  return std::lower_bound(
+      objects.begin(), objects.end(), id,
+      [](const std::shared_ptr<const MovingObject>& object, ObjectId i) { return object->id < i; });
+}
+
+bool IsAt(SceneObjects::iterator place, ObjectId id, const SceneObjects& objects) {
+  return place != objects.end() && (*place)->id == id;
+}
+
+// A pose in the addressable space, at a stamp that may be calculated with.
+absl::Status CheckPose(const std::string& pose_field, const std::string& stamp_field,
+                       const StampedPose& pose, const SceneParams& params,
+                       const FrameLimits& limits) {
+  if (auto status = ValidateStamp(stamp_field, pose.stamp); !status.ok()) return status;
+  if (auto status = ValidatePose(pose_field, pose.T_W_O, limits.max_coordinate_m); !status.ok()) {
+    return status;
+  }
+  const VoxelGrid grid(params.resolution_m);
+  if (grid.Addressable(pose.T_W_O.translation)) return absl::OkStatus();
+  return Invalid(pose_field + ".translation_m",
+                 absl::StrCat("lies outside the addressable space of ", grid.limit_m(),
+                              " m about the origin"));
+}
+
+absl::Status CheckFuture(const std::string& field, const std::vector<StampedPose>& poses, Time t_k,
+                         const SceneParams& params, const FrameLimits& limits) {
+  if (poses.size() > kMaxFuturePoses) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat(field, ": ", poses.size(), " poses; the limit is ", kMaxFuturePoses));
+  }
+  Time before = t_k;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::string stamp_field = absl::StrCat(field, ".stamps_ns[", i, "]");
+    if (auto status = CheckPose(absl::StrCat(field, ".world_from_object[", i, "]"), stamp_field,
+                                poses[i], params, limits);
+        !status.ok()) {
+      return status;
+    }
+    if (poses[i].stamp <= before) {
+      return Invalid(stamp_field,
+                     absl::StrCat("is ", ToNanoseconds(poses[i].stamp), ", not after ",
+                                  i == 0 ? "the object's pose at " : "the one before it, ",
+                                  ToNanoseconds(before)));
+    }
+    before = poses[i].stamp;
+  }
+  return absl::OkStatus();
+}
+
+// Of a mesh, its triangles; the shapes without one have none.
+std::size_t TriangleCount(const Shape& shape) {
+  std::shared_ptr<const Mesh> mesh;
+  if (const auto* convex = std::get_if<ConvexPolytope>(&shape)) mesh = convex->mesh;
+  if (const auto* triangles = std::get_if<TriangleMesh>(&shape)) mesh = triangles->mesh;
+  return mesh == nullptr ? 0 : mesh->triangles.size();
+}
+
+absl::Status CheckVelocity(const Twist& velocity_O) {
+  const double linear_mps = velocity_O.linear.norm(), spin_radps = velocity_O.angular.norm();
+  if (!(linear_mps <= kMaxGivenSpeed_mps)) {  // so that it fails for NaN
+    return Invalid(
+        "velocity_object.linear_mps",
+        absl::StrCat("is of length ", linear_mps, "; the limit is ", kMaxGivenSpeed_mps));
+  }
+  if (!(spin_radps <= kMaxGivenSpin_radps)) {
+    return Invalid(
+        "velocity_object.angular_radps",
+        absl::StrCat("is of length ", spin_radps, "; the limit is ", kMaxGivenSpin_radps));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Check(const GivenObject& given, const SceneParams& params, const FrameLimits& limits) {
+  if (given.id <= kStaticLabel) {
+    return Invalid("object_id", absl::StrCat("is ", given.id, "; object ids start at 1"));
+  }
+  if (auto status = ValidateGivenShape("shape", given.shape); !status.ok()) return status;
+  if (auto status = CheckPose("world_from_object", "stamp_ns", given.pose, params, limits);
+      !status.ok()) {
+    return status;
+  }
+  if (given.velocity_O) {
+    if (auto status = CheckVelocity(*given.velocity_O); !status.ok()) return status;
+  }
+  return CheckFuture("future", given.future, given.pose.stamp, params, limits);
+}
+
+StampedPose Normalized(const StampedPose& pose) {
+  return {pose.stamp, {pose.T_W_O.rotation.normalized(), pose.T_W_O.translation}};
+}
+
+std::vector<StampedPose> Normalized(const std::vector<StampedPose>& poses) {
+  std::vector<StampedPose> normalized;
+  normalized.reserve(poses.size());
+  for (const StampedPose& pose : poses) normalized.push_back(Normalized(pose));
+  return normalized;
+}
+
+// What the scene keeps of the shape: a convex mesh is a polytope.
+Shape Kept(const Shape& shape) {
+  const auto* triangles = std::get_if<TriangleMesh>(&shape);
+  return triangles == nullptr ? shape : ConvexPolytope{triangles->mesh};
+}
+
+}  // namespace
+
+absl::Status ValidateGivenShape(const std::string& field, const Shape& shape) {
+  if (const std::size_t count = TriangleCount(shape); count > kMaxGivenTriangles) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat(field, ": ", count, " triangles; the limit is ", kMaxGivenTriangles));
+  }
+  const auto* triangles = std::get_if<TriangleMesh>(&shape);
+  const absl::Status status =
+      Validate(field, triangles == nullptr ? shape : ConvexPolytope{triangles->mesh});
+  if (status.ok()) return status;
+  return absl::Status(
+      status.code(),
+      absl::StrCat(status.message(), triangles == nullptr
+                                         ? ""
+                                         : "; a mesh that is not convex has to be given in convex "
+                                           "parts, each an object of its own"));
+}
+
+absl::Status AddGiven(const GivenObject& given, const SceneParams& params,
+                      const FrameLimits& limits, SceneObjects& objects) {
+  if (auto status = Check(given, params, limits); !status.ok()) return status;
+  const auto place = PlaceOf(given.id, objects);
+  if (IsAt(place, given.id, objects)) {
+    return absl::AlreadyExistsError(
+        absl::StrCat("object_id: the scene has an object ", given.id, " already"));
+  }
+  if (objects.size() >= limits.max_objects) {
+    return absl::ResourceExhaustedError(absl::StrCat("object_id: the scene holds ", objects.size(),
+                                                     " objects; the limit is ",
+                                                     limits.max_objects));
+  }
+  auto object = std::make_shared<MovingObject>();
+  object->id = given.id;
+  object->map_O = VoxelMap(params.object_resolution_m, params.Model());
+  object->given_shape = std::make_shared<const Shape>(Kept(given.shape));
+  object->solid = SolidOf(*object->given_shape);
+  if (object->solid->hull->triangles.empty()) return Invalid("shape", "has no volume");
+  object->history = {Normalized(given.pose)};
+  object->velocity_O = given.velocity_O;
+  object->future = Normalized(given.future);
+  object->first_seen = object->last_seen = given.pose.stamp;
+  objects.insert(place, std::move(object));
+  return absl::OkStatus();
+}
+
+absl::Status RemoveGiven(const std::string& field, ObjectId id, SceneObjects& objects) {
+  const auto place = PlaceOf(id, objects);
+  if (!IsAt(place, id, objects)) {
+    return absl::NotFoundError(absl::StrCat(field, ": the scene has no object ", id));
+  }
+  if (!(*place)->given()) {
+    return absl::NotFoundError(
+        absl::StrCat(field, ": object ", id, " was reconstructed from scans, not given"));
+  }
+  objects.erase(place);
+  return absl::OkStatus();
+}
+
+absl::Status StateFuture(ObjectId id, const std::vector<StampedPose>& poses,
+                         const SceneParams& params, const FrameLimits& limits,
+                         SceneObjects& objects) {
+  const auto place = PlaceOf(id, objects);
+  if (!IsAt(place, id, objects)) {
+    return absl::NotFoundError(absl::StrCat("object_id: the scene has no object ", id));
+  }
+  if (auto status = CheckFuture("future", poses, (*place)->t_k(), params, limits); !status.ok()) {
+    return status;
+  }
+  auto object = std::make_shared<MovingObject>(**place);
+  object->future = Normalized(poses);
+  *place = std::move(object);
+  return absl::OkStatus();
+}
+
+}  // namespace clearway
