@@ -33,6 +33,11 @@ AT_MOST = {
     "query_p99_while_writing_x": 1.3,
     "delta_mb_per_scan": 3,
     "motion_unresolved_fraction": 0.01,
+    # A tenth of what OMPL 2.0.2's ST-RRT* takes (113 and 489 ms), and its arrivals.
+    "discs_first_40_ms": 11.3,
+    "discs_first_60_ms": 48.9,
+    "discs_arrival_40_s": 18.22,
+    "discs_arrival_60_s": 21.60,
 }
 
 
