@@ -146,7 +146,7 @@ Aabb ObjectIndex::ReachOf(const MovingObject& object, const Ball& ball, Time fir
   const auto extend = [&reach_W](const Ball::Reach& reach) {
     reach_W.Extend(Aabb{reach.center_W, reach.center_W}.Padded(reach.radius_m));
   };
-  if (first < ball.last && last >= ball.t_k) {
+  if (!ball.way.empty() && first < ball.last && last >= ball.t_k) {
     const Time from = std::max(first, ball.t_k);
     for (std::size_t i = ball.WaypointAt(from);
          i + 1 < ball.way.size() && ball.way[i].stamp <= last; ++i) {
