@@ -78,6 +78,8 @@ ObjectInfo DescribeObject(const MovingObject& object) {
   info.frames_seen = object.frames_seen;
   info.at_rest = object.AtRest();
   info.bridged = object.bridged;
+  info.given = object.given();
+  if (!object.future.empty()) info.future_end = object.future.back().stamp;
   return info;
 }
 

@@ -60,18 +60,6 @@ absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>&
   return bytes;
 }
 
-// Queues a change and waits until it is published.
-template <class Response>
-absl::Status ApplyChange(ServerCore& core, const grpc::ServerContext* context,
-                         Ingestor::Change change, bool forget_answers, Response* response) {
-  absl::StatusOr<Ingestor::Ticket> ticket = core.ingestor.Apply(std::move(change), forget_answers);
-  if (!ticket.ok()) return ticket.status();
-  const Ingestor::Answer answer = Ingestor::Wait(*ticket, GoneOf(context));
-  if (!answer.ok()) return answer.status();
-  Write(static_cast<const Versioned&>(*answer), response->mutable_scene());
-  return absl::OkStatus();
-}
-
 }  // namespace
 
 grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,

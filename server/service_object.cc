@@ -5,6 +5,13 @@
 #include "wire/object_wire.h"
 
 namespace clearway {
+namespace {
+
+absl::Status KnowingObjects(absl::Status status) {
+  return absl::IsNotFound(status) ? WithReason(std::move(status), "UNKNOWN_OBJECT") : status;
+}
+
+}  // namespace
 
 grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
                                          const v1::ListObjectsRequest* request,
@@ -59,6 +66,48 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
         Write(*poses, response);
         return absl::OkStatus();
       });
+}
+
+grpc::Status ObjectHandlers::AddObjects(grpc::ServerContext* context,
+                                        const v1::AddObjectsRequest* request,
+                                        v1::AddObjectsResponse* response) {
+  return Handle(core_, "AddObjects", *request, [&]() -> absl::Status {
+    absl::StatusOr<std::vector<GivenObject>> objects =
+        ReadGivenObjects(*request, core_.config.limits);
+    if (!objects.ok()) return objects.status();
+    const auto change = [objects = *std::move(objects)](SceneBuilder& builder) {
+      return builder.AddObjects(objects);
+    };
+    return ApplyChange(core_, context, change, false, response);
+  });
+}
+
+grpc::Status ObjectHandlers::RemoveObjects(grpc::ServerContext* context,
+                                           const v1::RemoveObjectsRequest* request,
+                                           v1::RemoveObjectsResponse* response) {
+  return Handle(core_, "RemoveObjects", *request, [&]() -> absl::Status {
+    FieldReader read;
+    read.AtMost("object_ids", request->object_ids_size(), core_.config.limits.max_objects);
+    if (!read.ok()) return read.status();
+    const std::vector<ObjectId> ids(request->object_ids().begin(), request->object_ids().end());
+    const auto change = [ids](SceneBuilder& builder) {
+      return KnowingObjects(builder.RemoveObjects(ids));
+    };
+    return ApplyChange(core_, context, change, false, response);
+  });
+}
+
+grpc::Status ObjectHandlers::SetFutures(grpc::ServerContext* context,
+                                        const v1::SetFuturesRequest* request,
+                                        v1::SetFuturesResponse* response) {
+  return Handle(core_, "SetFutures", *request, [&]() -> absl::Status {
+    absl::StatusOr<std::vector<ObjectFuture>> futures = ReadFutures(*request, core_.config.limits);
+    if (!futures.ok()) return futures.status();
+    const auto change = [futures = *std::move(futures)](SceneBuilder& builder) {
+      return KnowingObjects(builder.SetFutures(futures));
+    };
+    return ApplyChange(core_, context, change, false, response);
+  });
 }
 
 }  // namespace clearway

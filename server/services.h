@@ -94,6 +94,12 @@ class ObjectHandlers final : public v1::ObjectService::Service {
                          v1::GetObjectResponse* response) override;
   grpc::Status PredictPoses(grpc::ServerContext* context, const v1::PredictPosesRequest* request,
                             v1::PredictPosesResponse* response) override;
+  grpc::Status AddObjects(grpc::ServerContext* context, const v1::AddObjectsRequest* request,
+                          v1::AddObjectsResponse* response) override;
+  grpc::Status RemoveObjects(grpc::ServerContext* context, const v1::RemoveObjectsRequest* request,
+                             v1::RemoveObjectsResponse* response) override;
+  grpc::Status SetFutures(grpc::ServerContext* context, const v1::SetFuturesRequest* request,
+                          v1::SetFuturesResponse* response) override;
 
  private:
   ServerCore& core_;

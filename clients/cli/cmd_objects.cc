@@ -50,6 +50,8 @@ Json AsJson(const ObjectRow& row) {
                {"speed_mps", o.speed_mps},
                {"at_rest", o.at_rest},
                {"bridged", o.bridged},
+               {"given", o.given},
+               {"future_end_ns", nullptr},
                {"world_from_object", ToJson(o.T_W_O)},
                {"pose_stamp_ns", ToNanoseconds(o.t_k)},
                {"velocity_object", nullptr},
@@ -62,6 +64,7 @@ Json AsJson(const ObjectRow& row) {
     json["velocity_object"] = {{"angular_radps", ToJson(o.velocity_O->angular)},
                                {"linear_mps", ToJson(o.velocity_O->linear)}};
   }
+  if (o.future_end) json["future_end_ns"] = ToNanoseconds(*o.future_end);
   if (row.then) {
     json["predicted"] = {{"world_from_object", ToJson(row.then->T_W_O)},
                          {"beyond_horizon", row.then->beyond_horizon_radius_m.has_value()}};
@@ -71,6 +74,7 @@ Json AsJson(const ObjectRow& row) {
 
 // "moving", and what else a planner's author wants to know of the motion.
 std::string MotionOf(const ObjectInfo& o) {
+  if (o.future_end) return "stated";
   if (o.bridged) return "bridged";
   if (!o.velocity_O) return "unknown";
   return o.at_rest ? "at rest" : "moving";
@@ -87,15 +91,17 @@ void PrintText(std::ostream& out, const ObjectList& list, const std::vector<Obje
   Table table(header);
   for (const ObjectRow& row : rows) {
     const ObjectInfo& o = row.info;
-    std::vector<std::string> cells = {
-        absl::StrCat(o.id),
-        absl::StrCat(o.frames_seen),
-        Grouped(o.occupied_voxels),
-        Size(o.extent.size_m),
-        Fixed(o.speed_mps, 2),
-        MotionOf(o),
-        Point(o.T_W_O.translation),
-        o.last_seen == list.stamp ? "now" : Seconds(list.stamp - o.last_seen) + " ago"};
+    std::vector<std::string> cells = {absl::StrCat(o.id),
+                                      absl::StrCat(o.frames_seen),
+                                      Grouped(o.occupied_voxels),
+                                      Size(o.extent.size_m),
+                                      Fixed(o.speed_mps, 2),
+                                      MotionOf(o),
+                                      Point(o.T_W_O.translation),
+                                      o.given ? "given"
+                                      : o.last_seen == list.stamp
+                                          ? "now"
+                                          : Seconds(list.stamp - o.last_seen) + " ago"};
     if (row.then) {
       cells.push_back(Point(row.then->T_W_O.translation) +
                       (row.then->beyond_horizon_radius_m ? " beyond horizon" : ""));

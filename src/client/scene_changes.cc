@@ -2,6 +2,7 @@
 #include "clearway/client/scene_client.h"
 #include "client/call.h"
 #include "wire/geometry_wire.h"
+#include "wire/object_wire.h"
 #include "wire/scene_wire.h"
 
 namespace clearway {
@@ -121,6 +122,27 @@ absl::StatusOr<Versioned> SceneClient::SetKeepOut(std::span<const Aabb> boxes_W)
 absl::StatusOr<Versioned> SceneClient::Reset() const {
   return Change(*connection_, connection_->impl().map, &v1::MapService::Stub::Reset,
                 v1::ResetRequest());
+}
+
+absl::StatusOr<Versioned> SceneClient::AddObjects(std::span<const GivenObject> objects) const {
+  v1::AddObjectsRequest request;
+  for (const GivenObject& object : objects) Write(object, request.add_objects());
+  return Change(*connection_, connection_->impl().object, &v1::ObjectService::Stub::AddObjects,
+                request);
+}
+
+absl::StatusOr<Versioned> SceneClient::RemoveObjects(std::span<const ObjectId> ids) const {
+  v1::RemoveObjectsRequest request;
+  request.mutable_object_ids()->Add(ids.begin(), ids.end());
+  return Change(*connection_, connection_->impl().object, &v1::ObjectService::Stub::RemoveObjects,
+                request);
+}
+
+absl::StatusOr<Versioned> SceneClient::SetFutures(std::span<const ObjectFuture> futures) const {
+  v1::SetFuturesRequest request;
+  for (const ObjectFuture& future : futures) Write(future, request.add_futures());
+  return Change(*connection_, connection_->impl().object, &v1::ObjectService::Stub::SetFutures,
+                request);
 }
 
 }  // namespace clearway

@@ -60,7 +60,8 @@ void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last,
 }
 
 // The voxels that a given object may touch.
-void BlockShapeOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, VoxelMap& map) {
+void BlockShapeOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed,
+                  const std::function<bool()>& cancelled, VoxelMap& map) {
   const VoxelGrid& grid = map.grid();
   const double half_diagonal_m = 0.5 * std::sqrt(3.0) * grid.resolution_m();
   const Aabb box_W = Intersection(placed.box_W, KnownBox(scene));
@@ -68,6 +69,7 @@ void BlockShapeOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, V
   const VoxelKey first = grid.KeyOf(box_W.min), last = grid.KeyOf(box_W.max);
   for (VoxelKey key = first; key.z <= last.z; ++key.z) {
     for (key.y = first.y; key.y <= last.y; ++key.y) {
+      if (cancelled()) return;
       for (key.x = first.x; key.x <= last.x; ++key.x) {
         const Eigen::Vector3d p_O = placed.T_O_W * grid.CenterOf(key);
         if (NearHull(*placed.object->solid->hull, p_O, half_diagonal_m)) Block(map, key);
@@ -77,9 +79,10 @@ void BlockShapeOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, V
 }
 
 // An object thinner than a voxel can lie between the voxels' centres.
-void BlockVoxelsOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed, VoxelMap& map) {
+void BlockVoxelsOf(const SceneAtTime& scene, const SceneAtTime::Placed& placed,
+                   const std::function<bool()>& cancelled, VoxelMap& map) {
   if (placed.beyond_horizon_radius_m) return;
-  if (placed.object->given()) return BlockShapeOf(scene, placed, map);
+  if (placed.object->given()) return BlockShapeOf(scene, placed, cancelled, map);
   const VoxelMap& map_O = placed.object->map_O;
   map_O.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
     block.occupied.ForEach([&](int index) {
@@ -109,7 +112,10 @@ absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max
     BlockInBox(scene, map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), cancelled, map);
     if (cancelled()) return absl::CancelledError("the export was cancelled");
   }
-  for (const SceneAtTime::Placed& placed : scene.objects()) BlockVoxelsOf(scene, placed, map);
+  for (const SceneAtTime::Placed& placed : scene.objects()) {
+    BlockVoxelsOf(scene, placed, cancelled, map);
+  }
+  if (cancelled()) return absl::CancelledError("the export was cancelled");
   return map;
 }
 

@@ -47,7 +47,7 @@ Row RowOf(const MovingObject& object, double width_px) {
     width_m += size_m.x();
     height_m = std::max(height_m, size_m.y());
   }
-  if (row.views->voxel_count() == 0) return row;
+  if (row.views->Empty()) return row;
   row.px_per_m = std::min({(width_px - (kKinds.size() - 1) * kGapPx) / width_m,
                            kTallestRowPx / height_m, kFinestPxPerM});
   row.view_height_px = row.px_per_m * height_m;
@@ -63,6 +63,10 @@ std::string Grouped(std::size_t number) {
 
 std::string CaptionOf(const Row& row) {
   const Eigen::Vector3d size = row.views->extent().size_m;
+  if (row.object->given()) {
+    return absl::StrFormat("%.1f x %.1f x %.1f m   \u00b7   given, not seen   \u00b7   %.1f m/s",
+                           size.x(), size.y(), size.z(), row.object->SpeedMps());
+  }
   return absl::StrFormat(
       "%.1f x %.1f x %.1f m   \u00b7   %s voxels of %g m   \u00b7   seen in %d frames   \u00b7   "
       "%.1f m/s",
@@ -86,7 +90,7 @@ void DrawRow(Canvas& canvas, const Row& row, const std::string& name, double y, 
   canvas.Text({kMarginPx, y + 34}, name, bold);
   canvas.Text({kMarginPx + canvas.TextWidth(name, bold) + 24, y + 34}, CaptionOf(row),
               {.size_px = 17, .color = palette::kMuted});
-  if (row.views->voxel_count() == 0) return;
+  if (row.views->Empty()) return;
 
   double x = kMarginPx;
   const double bottom = y + kCaptionPx + row.view_height_px;

@@ -107,12 +107,12 @@ Eigen::Vector2d VoxelViews::SizeOf(ViewKind kind) const { return BoundsOf(kind).
 
 void VoxelViews::Draw(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& corner,
                       double px_per_m) const {
-  if (voxels_.empty()) return;
+  if (Empty()) return;
   const Aabb bounds = BoundsOf(kind);
   const Eigen::Vector2d origin =
       corner + px_per_m * Eigen::Vector2d(-bounds.min.x(), bounds.min.y());
   DrawCubes(canvas, kind, origin, px_per_m);
-  if (kind != ViewKind::kOblique) DrawHull(canvas, kind, origin, px_per_m);
+  if (kind != ViewKind::kOblique || object_.given()) DrawHull(canvas, kind, origin, px_per_m);
 }
 
 void VoxelViews::DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,

@@ -23,6 +23,8 @@ class VoxelViews {
 
   // What the view takes up, in metres.
   Eigen::Vector2d SizeOf(ViewKind kind) const;
+  // Nothing to draw: neither an occupied voxel nor a given shape.
+  bool Empty() const { return voxels_.empty() && !object_.given(); }
   // Draws the view with its lower left corner at `corner`.
   void Draw(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& corner, double px_per_m) const;
 

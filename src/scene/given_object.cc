@@ -151,17 +151,17 @@ absl::Status AddGiven(const GivenObject& given, const SceneParams& params,
                                                      " objects; the limit is ",
                                                      limits.max_objects));
   }
-  auto object = std::make_shared<MovingObject>();
-  object->id = given.id;
-  object->map_O = VoxelMap(params.object_resolution_m, params.Model());
-  object->given_shape = std::make_shared<const Shape>(Kept(given.shape));
-  object->solid = SolidOf(*object->given_shape);
-  if (object->solid->hull->triangles.empty()) return Invalid("shape", "has no volume");
-  object->history = {Normalized(given.pose)};
-  object->velocity_O = given.velocity_O;
-  object->future = Normalized(given.future);
-  object->first_seen = object->last_seen = given.pose.stamp;
-  objects.insert(place, std::move(object));
+  MovingObject object;
+  object.id = given.id;
+  object.map_O = VoxelMap(params.object_resolution_m, params.Model());
+  object.given_shape = std::make_shared<const Shape>(Kept(given.shape));
+  object.solid = SolidOf(*object.given_shape);
+  if (object.solid->hull->triangles.empty()) return Invalid("shape", "has no volume");
+  object.history = {Normalized(given.pose)};
+  object.velocity_O = given.velocity_O.value_or(Twist{});
+  object.first_seen = object.last_seen = given.pose.stamp;
+  objects.insert(place, std::make_shared<const MovingObject>(
+                            WithFuture(std::move(object), Normalized(given.future))));
   return absl::OkStatus();
 }
 
@@ -188,9 +188,7 @@ absl::Status StateFuture(ObjectId id, const std::vector<StampedPose>& poses,
   if (auto status = CheckFuture("future", poses, (*place)->t_k(), params, limits); !status.ok()) {
     return status;
   }
-  auto object = std::make_shared<MovingObject>(**place);
-  object->future = Normalized(poses);
-  *place = std::move(object);
+  *place = std::make_shared<const MovingObject>(WithFuture(**place, Normalized(poses)));
   return absl::OkStatus();
 }
 

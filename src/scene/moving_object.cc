@@ -86,6 +86,17 @@ MovingObject WithMap(MovingObject object, VoxelMap map_O) {
   return object;
 }
 
+MovingObject WithFuture(MovingObject object, std::vector<StampedPose> future) {
+  object.future_velocity_O = {};
+  if (!future.empty()) {
+    const std::size_t size = future.size();
+    object.future_velocity_O =
+        VelocityBetween(size > 1 ? future[size - 2] : object.history.back(), future.back());
+  }
+  object.future = std::move(future);
+  return object;
+}
+
 bool MovingObject::AtRest() const {
   return future.empty() && (!velocity_O.has_value() || *velocity_O == Twist{});
 }
@@ -93,12 +104,6 @@ bool MovingObject::AtRest() const {
 double MovingObject::SpeedMps() const {
   if (!future.empty()) return VelocityBetween(history.back(), future.front()).linear.norm();
   return velocity_O ? velocity_O->linear.norm() : 0.0;
-}
-
-Twist MovingObject::LastVelocity() const {
-  if (future.empty()) return velocity_O.value_or(Twist{});
-  return VelocityBetween(future.size() > 1 ? future[future.size() - 2] : history.back(),
-                         future.back());
 }
 
 MovingObject::Interval MovingObject::IntervalAt(Time t) const {

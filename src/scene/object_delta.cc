@@ -71,7 +71,8 @@ absl::Status ApplyShape(const std::string& field, const MovingObject* base,
   object.map_O = VoxelMap(params.object_resolution_m, params.Model());
   object.given_shape = delta.given_shape;
   object.solid = SolidOf(*delta.given_shape);
-  return absl::OkStatus();
+  if (!object.solid->hull->triangles.empty()) return absl::OkStatus();
+  return Malformed(absl::StrCat(field, ".given_shape: has no volume"));
 }
 
 }  // namespace
@@ -85,6 +86,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   delta.history = to.history;
   delta.keeps_future = from != nullptr && KeepsFuture(*from, to);
   if (!delta.keeps_future) delta.future = to.future;
+  delta.future_velocity_O = to.future_velocity_O;
   delta.given = to.given();
   const bool known_shape = from != nullptr && to.given() && *from->given_shape == *to.given_shape;
   if (!known_shape) delta.given_shape = to.given_shape;
@@ -112,6 +114,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.id = delta.id;
   object.history = delta.history;
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
+  object.future_velocity_O = delta.future_velocity_O;
   object.velocity_O = delta.velocity_O;
   object.T_B_O = delta.T_B_O;
   object.first_seen = delta.first_seen;

@@ -40,13 +40,15 @@ double StraysBy(const Pose& T_W_A, const Pose& T_W_B) {
 }
 
 // An arc of half a turn or less is longer than its chord by (a / 2) / sin(a / 2) at most, and that
-// quotient is convex in the sine.
+// quotient is convex in the sine. Of an interval that is next to nothing, such as one from where a
+// frame found the object to where it was stated to be by then, the speed is no speed.
 double FastestBetween(const StampedPose& before, const StampedPose& after, double radius_m) {
   constexpr double kPi = std::numbers::pi;
   const double sine = SineOfHalfTurn(before.T_W_O, after.T_W_O);
   const double chord_m = (after.T_W_O.translation - before.T_W_O.translation).norm();
   const double way_m = (1 + (kPi / 2 - 1) * sine) * chord_m + kPi * sine * radius_m;
-  return way_m / ToSeconds(after.stamp - before.stamp);
+  constexpr double kShortest_s = 0.02;
+  return way_m / std::max(kShortest_s, ToSeconds(after.stamp - before.stamp));
 }
 
 constexpr double kRounding_m = 1e-6;
@@ -144,7 +146,7 @@ Aabb ObjectIndex::ReachOf(const MovingObject& object, const Ball& ball, Time fir
   const auto extend = [&reach_W](const Ball::Reach& reach) {
     reach_W.Extend(Aabb{reach.center_W, reach.center_W}.Padded(reach.radius_m));
   };
-  if (first < ball.last && last >= ball.t_k) {
+  if (!ball.way.empty() && first < ball.last && last >= ball.t_k) {
     const Time from = std::max(first, ball.t_k);
     for (std::size_t i = ball.WaypointAt(from);
          i + 1 < ball.way.size() && ball.way[i].stamp <= last; ++i) {

@@ -18,7 +18,8 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
       std::find_if(object.history.begin(), object.history.end() - 1,
                    [&](const StampedPose& p) { return p.stamp >= pose.stamp - history; });
   object.history.erase(object.history.begin(), keep);
-  if (!object.future.empty()) object.future = FutureAfter(object.future, pose.stamp);
+  object.future = FutureAfter(object.future, pose.stamp);
+  if (object.future.empty()) object.future_velocity_O = {};
 }
 
 // Whether nothing of the object went further than `distance_m` in the rest window before its newest

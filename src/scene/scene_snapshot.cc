@@ -106,6 +106,7 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(std::int64_t{object.frames_seen});
   Add(std::int64_t{object.bridged});
   Add(object.future);
+  Add(object.future_velocity_O);
   Add(std::int64_t{object.given()});
   if (object.given()) Add(*object.given_shape);
 }
@@ -140,9 +141,9 @@ bool SameShape(const MovingObject& a, const MovingObject& b) {
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
   return a.id == b.id && a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
-         SameShape(a, b) && a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O &&
-         a.first_seen == b.first_seen && a.last_seen == b.last_seen &&
-         a.frames_seen == b.frames_seen && a.bridged == b.bridged;
+         a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
+         a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
+         a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged;
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/scene/given_object.h"
 #include "wire/block_codec.h"
+#include "wire/robot_wire.h"
 #include "wire/scene_wire.h"
 #include "wire/status.h"
 
@@ -69,6 +71,13 @@ class DeltaWriter {
     proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
     proto->set_frames_seen(object.frames_seen);
     proto->set_bridged(object.bridged);
+    if (!object.future.empty()) Write(object.future, proto->mutable_future());
+    proto->set_keeps_future(object.keeps_future);
+    if (!(object.future_velocity_O == Twist{})) {
+      Write(object.future_velocity_O, proto->mutable_future_velocity_object());
+    }
+    proto->set_given(object.given);
+    if (object.given_shape != nullptr) Write(*object.given_shape, proto->mutable_given_shape());
     Added(proto->ByteSizeLong());
   }
 
@@ -100,6 +109,17 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   object.last_seen = read.Stamp("last_seen_ns", true, proto.last_seen_ns());
   object.frames_seen = proto.frames_seen();
   object.bridged = proto.bridged();
+  object.future = read.ReadTimedPoses("future", proto.future(), kMaxFuturePoses);
+  object.keeps_future = proto.keeps_future();
+  if (proto.has_future_velocity_object()) {
+    object.future_velocity_O =
+        read.ReadTwist("future_velocity_object", proto.future_velocity_object());
+  }
+  object.given = proto.given();
+  if (proto.has_given_shape()) {
+    object.given_shape =
+        std::make_shared<const Shape>(ReadConvexShape("given_shape", proto.given_shape(), read));
+  }
   if (!read.ok()) return read.status();
   return object;
 }

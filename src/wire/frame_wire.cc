@@ -125,6 +125,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_motions_ignored(ack.report.motions_ignored);
   report->set_objects_created(ack.report.objects_created);
   report->set_objects_dropped(ack.report.objects_dropped);
+  report->set_points_given(ack.report.points_given);
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -141,6 +142,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.motions_ignored = report.motions_ignored();
   ack.report.objects_created = report.objects_created();
   ack.report.objects_dropped = report.objects_dropped();
+  ack.report.points_given = report.points_given();
   return ack;
 }
 

@@ -51,6 +51,13 @@ void Append(const Pose& pose, v1::PoseArray* proto) {
   for (int i = 0; i < 3; ++i) proto->add_translations_m(pose.translation[i]);
 }
 
+void Write(std::span<const StampedPose> poses, v1::TimedPoses* proto) {
+  for (const StampedPose& pose : poses) {
+    proto->add_stamps_ns(ToNanoseconds(pose.stamp));
+    Append(pose.T_W_O, proto->mutable_world_from_object());
+  }
+}
+
 void FieldReader::Fail(const std::string& field, const std::string& what) {
   if (ok()) status_ = FieldError(path_ + field, what);
 }
@@ -149,6 +156,21 @@ std::vector<Pose> FieldReader::Poses(const std::string& field, const v1::PoseArr
     if (!status.ok()) CheckPose(absl::StrCat(field, "[", i, "]"), poses.back());
   }
   return poses;
+}
+
+std::vector<StampedPose> FieldReader::ReadTimedPoses(const std::string& field,
+                                                     const v1::TimedPoses& proto,
+                                                     std::uint64_t limit) {
+  std::vector<StampedPose> timed;
+  AtMost(field + ".stamps_ns", proto.stamps_ns_size(), limit);
+  if (!ok()) return timed;
+  const std::vector<Pose> poses =
+      Poses(field + ".world_from_object", proto.world_from_object(), proto.stamps_ns_size());
+  for (int i = 0; i < proto.stamps_ns_size() && ok(); ++i) {
+    const std::string stamp_field = absl::StrCat(field, ".stamps_ns[", i, "]");
+    timed.push_back({Stamp(stamp_field, true, proto.stamps_ns(i)), poses[i]});
+  }
+  return timed;
 }
 
 void FieldReader::CheckTimes(const std::string& field,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "clearway/base/time.h"
 #include "clearway/geometry/aabb.h"
 #include "clearway/geometry/pose.h"
+#include "clearway/scene/moving_object.h"
 #include "clearway/v1/geometry.pb.h"
 
 namespace clearway {
@@ -20,6 +22,7 @@ void Write(const Pose& pose, v1::Pose* proto);
 void Write(const Twist& twist, v1::Twist* proto);
 void Write(const Aabb& box, v1::AxisAlignedBox* proto);
 void Append(const Pose& pose, v1::PoseArray* proto);
+void Write(std::span<const StampedPose> poses, v1::TimedPoses* proto);
 
 // Reads the fields of one message and remembers the first error, with the field's path; after an
 // error every read is harmless. Not thread-safe.
@@ -49,6 +52,9 @@ class FieldReader {
   Aabb Box(const std::string& field, bool present, const v1::AxisAlignedBox& proto);
   // Exactly `count` poses.
   std::vector<Pose> Poses(const std::string& field, const v1::PoseArray& proto, std::size_t count);
+  // RESOURCE_EXHAUSTED for more than `limit`.
+  std::vector<StampedPose> ReadTimedPoses(const std::string& field, const v1::TimedPoses& proto,
+                                          std::uint64_t limit);
   // A repeated field of triples, which may be NaN unless `finite`.
   template <class Repeated>
   void CheckTriples(const std::string& field, const Repeated& values, bool finite);

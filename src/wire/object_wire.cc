@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "absl/strings/str_cat.h"
+#include "wire/robot_wire.h"
 #include "wire/scene_wire.h"
 
 namespace clearway {
@@ -38,6 +40,8 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_at_rest(object.at_rest);
   proto->set_bridged(object.bridged);
   if (!object.box_O.Empty()) WriteExtent(object.extent, proto->mutable_extent_object());
+  proto->set_given(object.given);
+  if (object.future_end) proto->set_future_end_ns(ToNanoseconds(*object.future_end));
 }
 
 absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
@@ -61,6 +65,8 @@ absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
   object.at_rest = proto.at_rest();
   object.bridged = proto.bridged();
   if (proto.has_extent_object()) object.extent = ReadExtent(read, proto.extent_object());
+  object.given = proto.given();
+  if (proto.has_future_end_ns()) object.future_end = TimeFromNanoseconds(proto.future_end_ns());
   if (!read.ok()) return read.status();
   return object;
 }
@@ -92,6 +98,57 @@ absl::StatusOr<PredictedPoses> ReadPredictedPoses(const v1::PredictPosesResponse
     if (!std::isnan(radius_m)) answer.poses.back().beyond_horizon_radius_m = radius_m;
   }
   return answer;
+}
+
+void Write(const GivenObject& object, v1::GivenObject* proto) {
+  proto->set_object_id(object.id);
+  Write(object.shape, proto->mutable_shape());
+  Write(object.pose.T_W_O, proto->mutable_world_from_object());
+  proto->set_stamp_ns(ToNanoseconds(object.pose.stamp));
+  if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
+  if (!object.future.empty()) Write(object.future, proto->mutable_future());
+}
+
+void Write(const ObjectFuture& future, v1::ObjectFuture* proto) {
+  proto->set_object_id(future.id);
+  Write(future.poses, proto->mutable_future());
+}
+
+absl::StatusOr<std::vector<GivenObject>> ReadGivenObjects(const v1::AddObjectsRequest& proto,
+                                                          const ServerLimits& limits) {
+  FieldReader read;
+  read.AtMost("objects", proto.objects_size(), limits.max_objects);
+  std::vector<GivenObject> objects;
+  for (int i = 0; i < proto.objects_size() && read.ok(); ++i) {
+    const v1::GivenObject& from = proto.objects(i);
+    const std::string field = absl::StrCat("objects[", i, "].");
+    GivenObject& object = objects.emplace_back();
+    object.id = from.object_id();
+    object.shape = ReadConvexShape(field + "shape", from.shape(), read);
+    object.pose.T_W_O = read.ReadPose(field + "world_from_object", from.has_world_from_object(),
+                                      from.world_from_object());
+    object.pose.stamp = read.Stamp(field + "stamp_ns", from.has_stamp_ns(), from.stamp_ns());
+    if (from.has_velocity_object()) {
+      object.velocity_O = read.ReadTwist(field + "velocity_object", from.velocity_object());
+    }
+    object.future = read.ReadTimedPoses(field + "future", from.future(), kMaxFuturePoses);
+  }
+  if (!read.ok()) return read.status();
+  return objects;
+}
+
+absl::StatusOr<std::vector<ObjectFuture>> ReadFutures(const v1::SetFuturesRequest& proto,
+                                                      const ServerLimits& limits) {
+  FieldReader read;
+  read.AtMost("futures", proto.futures_size(), limits.max_objects);
+  std::vector<ObjectFuture> futures;
+  for (int i = 0; i < proto.futures_size() && read.ok(); ++i) {
+    const std::string field = absl::StrCat("futures[", i, "].future");
+    futures.push_back({proto.futures(i).object_id(),
+                       read.ReadTimedPoses(field, proto.futures(i).future(), kMaxFuturePoses)});
+  }
+  if (!read.ok()) return read.status();
+  return futures;
 }
 
 }  // namespace clearway

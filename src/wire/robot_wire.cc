@@ -1,7 +1,6 @@
 #include "wire/robot_wire.h"
 
 #include "absl/strings/str_cat.h"
-#include "wire/geometry_wire.h"
 
 namespace clearway {
 namespace {
@@ -15,8 +14,17 @@ void WriteMesh(const Mesh& mesh, v1::Mesh* proto) {
   }
 }
 
+void WriteTriangles(const TriangleMesh& s, v1::LinkShape* proto) {
+  WriteMesh(*s.mesh, proto->mutable_mesh());
+}
+void WriteTriangles(const TriangleMesh& s, v1::ConvexShape* proto) {
+  WriteMesh(*s.mesh, proto->mutable_convex());
+}
+
+// Of a LinkShape or a ConvexShape.
+template <class Proto>
 struct ShapeWriter {
-  v1::LinkShape* proto;
+  Proto* proto;
   void operator()(const Sphere& s) const { proto->mutable_sphere()->set_radius_m(s.radius_m); }
   void operator()(const Box& s) const { Write(s.size_m, proto->mutable_box()->mutable_size_m()); }
   void operator()(const Capsule& s) const {
@@ -28,7 +36,7 @@ struct ShapeWriter {
     proto->mutable_cylinder()->set_length_m(s.length_m);
   }
   void operator()(const ConvexPolytope& s) const { WriteMesh(*s.mesh, proto->mutable_convex()); }
-  void operator()(const TriangleMesh& s) const { WriteMesh(*s.mesh, proto->mutable_mesh()); }
+  void operator()(const TriangleMesh& s) const { WriteTriangles(s, proto); }
 };
 
 std::shared_ptr<const Mesh> ReadMesh(const std::string& field, const v1::Mesh& proto,
@@ -45,26 +53,31 @@ std::shared_ptr<const Mesh> ReadMesh(const std::string& field, const v1::Mesh& p
   return mesh;
 }
 
-Shape ReadShape(const std::string& field, const v1::LinkShape& proto, FieldReader& read) {
+// Of a LinkShape or a ConvexShape: what they have in common.
+template <class Proto>
+Shape ReadShape(const std::string& field, const Proto& proto, FieldReader& read) {
   switch (proto.shape_case()) {
-    case v1::LinkShape::kSphere:
+    case Proto::kSphere:
       return Sphere{proto.sphere().radius_m()};
-    case v1::LinkShape::kBox:
+    case Proto::kBox:
       return Box{
           read.Vector(field + ".box.size_m", proto.box().has_size_m(), proto.box().size_m())};
-    case v1::LinkShape::kCapsule:
+    case Proto::kCapsule:
       return Capsule{proto.capsule().radius_m(), proto.capsule().length_m()};
-    case v1::LinkShape::kCylinder:
+    case Proto::kCylinder:
       return Cylinder{proto.cylinder().radius_m(), proto.cylinder().length_m()};
-    case v1::LinkShape::kConvex:
+    case Proto::kConvex:
       return ConvexPolytope{ReadMesh(field + ".convex", proto.convex(), read)};
-    case v1::LinkShape::kMesh:
-      return TriangleMesh{ReadMesh(field + ".mesh", proto.mesh(), read)};
-    case v1::LinkShape::SHAPE_NOT_SET:
+    default:
       break;
   }
   read.Fail(field + ".shape", "is missing or of a kind that this server does not know");
   return Sphere{};
+}
+
+Shape ReadLinkShape(const std::string& field, const v1::LinkShape& proto, FieldReader& read) {
+  if (proto.has_mesh()) return TriangleMesh{ReadMesh(field + ".mesh", proto.mesh(), read)};
+  return ReadShape(field, proto, read);
 }
 
 std::uint64_t TriangleCount(const v1::Robot& proto) {
@@ -86,10 +99,18 @@ void Write(const Robot& robot, v1::Robot* proto) {
     out->set_name(link.name);
     for (const LinkShape& shape : link.shapes) {
       v1::LinkShape* shape_out = out->add_shapes();
-      std::visit(ShapeWriter{shape_out}, shape.shape);
+      std::visit(ShapeWriter<v1::LinkShape>{shape_out}, shape.shape);
       Write(shape.T_L_G, shape_out->mutable_link_from_shape());
     }
   }
+}
+
+void Write(const Shape& shape, v1::ConvexShape* proto) {
+  std::visit(ShapeWriter<v1::ConvexShape>{proto}, shape);
+}
+
+Shape ReadConvexShape(const std::string& field, const v1::ConvexShape& proto, FieldReader& read) {
+  return ReadShape(field, proto, read);
 }
 
 absl::StatusOr<Robot> ReadRobot(const std::string& field, const v1::Robot& proto,
@@ -106,7 +127,7 @@ absl::StatusOr<Robot> ReadRobot(const std::string& field, const v1::Robot& proto
     for (int s = 0; s < shapes.size() && read.ok(); ++s) {
       const std::string path = absl::StrCat("links[", l, "].shapes[", s, "]");
       link.shapes.push_back(
-          {ReadShape(path, shapes[s], read),
+          {ReadLinkShape(path, shapes[s], read),
            read.ReadPose(path + ".link_from_shape", shapes[s].has_link_from_shape(),
                          shapes[s].link_from_shape())});
     }

@@ -38,6 +38,8 @@ const char* DefaultReason(absl::StatusCode code) {
       return "BAD_FIELD";
     case absl::StatusCode::kNotFound:
       return "NOT_FOUND";
+    case absl::StatusCode::kAlreadyExists:
+      return "ALREADY_EXISTS";
     case absl::StatusCode::kFailedPrecondition:
       return "WRONG_ORDER";
     case absl::StatusCode::kResourceExhausted:

@@ -107,6 +107,17 @@ TEST_F(MirrorTest, FollowsChangesByHand) {
   const Aabb box{{-2, -2, -2}, {2, 2, 2}};
   ExpectEqual(*dut, client.ClearRegion(box)->version);
   ExpectEqual(*dut, client.SetKeepOut(std::span(&box, 1))->version);
+  const Time now = server_.Newest()->stamp;
+  const std::vector<StampedPose> future{{now + FromSeconds(1), Pose::Translation(1, 2, 0)}};
+  const GivenObject given[] = {{100, Sphere{1}, {now, Pose{}}, Twist{}, future},
+                               {101, Box{{1, 2, 3}}, {now, Pose{}}, {}, {}}};
+  ExpectEqual(*dut, client.AddObjects(given)->version);
+  const ObjectFuture stated[] = {{100, {}}, {101, future}};
+  ExpectEqual(*dut, client.SetFutures(stated)->version);
+  ExpectEqual(*dut, Push(5));
+  const ObjectId ids[] = {101};
+  ExpectEqual(*dut, client.RemoveObjects(ids)->version);
+  EXPECT_NE(dut->Latest()->FindObject(100), nullptr);
   ExpectEqual(*dut, client.Reset()->version);
   frames_ = RandomFrames(9);
   ExpectEqual(*dut, Push(10));

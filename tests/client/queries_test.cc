@@ -153,6 +153,30 @@ TEST_F(QueriesTest, ObjectsAndPredictions) {
   EXPECT_TRUE(absl::IsNotFound(dut_.PredictPoses(nobody, times_).status()));
 }
 
+TEST_F(QueriesTest, GivenObjectsAndFutures) {
+  const Time now = scene_->stamp, then = now + FromSeconds(3);
+  const GivenObject door[] = {{900, Box{{1, 0.05, 2}}, {now, Pose::Translation(3, 3, 1)}, {}, {}}};
+  ASSERT_TRUE(dut_.AddObjects(door).ok());
+  const ObjectFuture opens[] = {{900, {{then, Pose::Translation(4, 3, 1)}}}};
+  const auto changed = dut_.SetFutures(opens);
+  ASSERT_TRUE(changed.ok()) << changed.status();
+  const auto info = dut_.GetObject(900, {.min_version = changed->version});
+  ASSERT_TRUE(info.ok()) << info.status();
+  EXPECT_TRUE(info->given);
+  EXPECT_EQ(info->future_end, then);
+  EXPECT_EQ(info->occupied_voxels, 0);
+  EXPECT_LT((info->extent.size_m - Eigen::Vector3d(1, 0.05, 2)).norm(), 1e-9);
+  const ObjectId ids[] = {900};
+  const Time middle[] = {now + FromSeconds(1.5)};
+  const auto poses = dut_.PredictPoses(ids, middle);
+  ASSERT_TRUE(poses.ok()) << poses.status();
+  EXPECT_LT((poses->poses[0].T_W_O.translation - Eigen::Vector3d(3.5, 3, 1)).norm(), 1e-9);
+  ASSERT_TRUE(dut_.RemoveObjects(ids).ok());
+  const absl::Status gone = dut_.RemoveObjects(ids).status();
+  EXPECT_TRUE(absl::IsNotFound(gone)) << gone;
+  EXPECT_EQ(DetailsOf(gone).reason, "UNKNOWN_OBJECT");
+}
+
 TEST_F(QueriesTest, ALeaseHoldsItsVersion) {
   const auto lease = dut_.AcquireLease(std::chrono::seconds(60));
   ASSERT_TRUE(lease.ok()) << lease.status();

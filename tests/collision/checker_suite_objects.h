@@ -70,6 +70,67 @@ TYPED_TEST_P(CheckerSuite, TheInsideOfAnObjectIsItsHullOrItsVoxelsAlone) {
   ExpectAnswer(this->Ask(*voxels, At(0.5, 0, 0)), SpaceStatus::kOccupied, 0, 1);
 }
 
+TYPED_TEST_P(CheckerSuite, GivenObjectsAreTheirShape) {
+  for (const SolidMode mode : {SolidMode::kConvexHull, SolidMode::kVoxels}) {
+    SceneParams params;
+    params.solid = mode;
+    const auto dut =
+        this->Make(this->Room(params).Given(9, Cylinder{0.3, 1.8}, Pose{}), this->Ball());
+    ExpectAnswer(this->Ask(*dut, At(0, 0, 0)), SpaceStatus::kOccupied, 0, 9);
+    ExpectAnswer(this->Ask(*dut, At(0.549, 0, 0.8)), SpaceStatus::kOccupied, 0, 9);
+    ExpectAnswer(this->Ask(*dut, At(0.554, 0, 0.8)), SpaceStatus::kFree, -1, 0);
+    ExpectAnswer(this->Ask(*dut, At(0, 0, 1.149, 99)), SpaceStatus::kOccupied, 0, 9);
+    ExpectAnswer(this->Ask(*dut, At(0, 0, 1.151, 99)), SpaceStatus::kFree, -1, 0);
+  }
+}
+
+// There and back again, then on as it went; the motion that was seen last says otherwise.
+TYPED_TEST_P(CheckerSuite, StatedFuturesAreFollowed) {
+  SceneParams params;
+  params.horizon = std::chrono::seconds(1);
+  const std::vector<StampedPose> future = {{TestTime(2), Pose::Translation(-3, 2, 0)},
+                                           {TestTime(4), Pose::Translation(-3, 0, 0)}};
+  const auto dut =
+      this->Make(this->Room(params)
+                     .Object(3, VoxelCuboid({-2, -2, -2}, {2, 2, 2}), Pose::Translation(-3, 0, 0),
+                             Twist{Eigen::Vector3d::Zero(), {1, 0, 0}})
+                     .Future(future),
+                 this->Ball());
+  for (const double t : {1.0, 3.0}) {
+    ExpectAnswer(this->Ask(*dut, At(-3, 1, 0, t)), SpaceStatus::kOccupied, 0, 3);
+    ExpectAnswer(this->Ask(*dut, At(-3, 0, 0, t)), SpaceStatus::kFree, -1, 0);
+    ExpectAnswer(this->Ask(*dut, At(-2, 0, 0, t)), SpaceStatus::kFree, -1, 0);
+  }
+  ExpectAnswer(this->Ask(*dut, At(-3, 2, 0, 2)), SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-3, -1, 0, 5)), SpaceStatus::kOccupied, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-3, -1, 0, 6)), SpaceStatus::kBeyondHorizon, 0, 3);
+  ExpectAnswer(this->Ask(*dut, At(-3, 2, 0, 6)), SpaceStatus::kFree, -1, 0);
+}
+
+TYPED_TEST_P(CheckerSuite, MotionsAreCheckedAgainstStatedFutures) {
+  const std::vector<StampedPose> future = {{TestTime(1), Pose::Translation(0, 3, 0)},
+                                           {TestTime(2), Pose{}},
+                                           {TestTime(3), Pose::Translation(0, -3, 0)},
+                                           {TestTime(4), Pose::Translation(0, -3, 0)}};
+  const auto dut = this->Make(
+      this->Room().Given(8, Box{{0.4, 0.4, 0.4}}, Pose::Translation(0, 3, 0), {}, future),
+      this->Ball());
+  const auto crosses_at = [&](double seconds) {  // x = 0, at 2 m/s
+    MotionBatch motion{{2}, {TestTime(seconds - 0.5), TestTime(seconds + 0.5)}, {}, {}};
+    motion.T_W_L = {Pose::Translation(-1, 0, 0), Pose::Translation(1, 0, 0)};
+    const auto reply = dut->CheckMotions(motion, {});
+    EXPECT_TRUE(reply.ok()) << reply.status();
+    return reply->answers[0];
+  };
+  for (const double free_s : {0.6, 1.5, 2.5, 3.0, 50.0}) {
+    EXPECT_EQ(crosses_at(free_s).status, SpaceStatus::kFree) << free_s;
+  }
+  const MotionAnswer hit = crosses_at(2);
+  EXPECT_EQ(hit.status, SpaceStatus::kOccupied);
+  ASSERT_TRUE(hit.witness);
+  EXPECT_EQ(hit.witness->object, 8);
+}
+
 TYPED_TEST_P(CheckerSuite, InflationGrowsWithTheTimeSinceAnObjectWasPlaced) {
   const auto dut = this->Make(this->Room().Object(1, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{}),
                               this->Ball());

@@ -66,15 +66,14 @@ class TestWorld {
     object.first_seen = object.last_seen = TestTime(stamp_s);
     object.history = {{TestTime(stamp_s), T_W_O}};
     object.velocity_O = velocity_O;
-    object.future = std::move(future);
-    scene_.objects.push_back(std::make_shared<const MovingObject>(std::move(object)));
+    scene_.objects.push_back(
+        std::make_shared<const MovingObject>(WithFuture(std::move(object), std::move(future))));
     return *this;
   }
   // Of the object that was added last.
   TestWorld& Future(std::vector<StampedPose> future) {
-    MovingObject object = *scene_.objects.back();
-    object.future = std::move(future);
-    scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
+    scene_.objects.back() =
+        std::make_shared<const MovingObject>(WithFuture(*scene_.objects.back(), std::move(future)));
     return *this;
   }
 

@@ -50,6 +50,23 @@ TEST(FlattenScene, Empty) {
   EXPECT_EQ(dut->observed_count(), 0);
 }
 
+// Thinner than a voxel, and between the voxels' centres.
+TEST(FlattenScene, AGivenDoorIsNotLost) {
+  ThreadPool pool(1);
+  SceneBuilder builder({}, {}, pool);
+  const GivenObject door{3, Box{{1, 0.02, 2}}, {At(0), Pose::Translation(2, 0.2, 1)}, {}, {}};
+  ASSERT_TRUE(builder.AddObject(door).ok());
+  const auto dut = FlattenScene(SceneAtTime(*builder.Publish(), At(5)));
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  for (double x = 1.55; x < 2.5; x += 0.1) {
+    for (double z = 0.05; z < 2; z += 0.1) {
+      EXPECT_EQ(StateAt(*dut, x, 0.19, z), VoxelState::kOccupied);
+      EXPECT_EQ(StateAt(*dut, x, 0.21, z), VoxelState::kOccupied);
+      EXPECT_NE(StateAt(*dut, x, 0.45, z), VoxelState::kOccupied);
+    }
+  }
+}
+
 TEST(FlattenScene, PutsObjectsWhereTheyAreAtTheTime) {
   const ScenePtr scene = MovingBox();
   for (const double seconds : {0.0, 0.5, 1.5}) {

@@ -142,6 +142,19 @@ TEST(ObjectSheet, AnObjectWithoutVoxelsIsARowOfTextAlone) {
   EXPECT_TRUE(WriteObjectSheet(scene, {}, FileFor("row.png")).ok());
 }
 
+TEST(ObjectSheet, AGivenObjectIsDrawnAsItsHull) {
+  SceneSnapshot scene = TestScene();
+  MovingObject given;
+  given.id = 8;
+  given.history = {{scene.stamp, Pose{}}};
+  given.given_shape = std::make_shared<const Shape>(Cylinder{0.3, 1.8});
+  given.solid = SolidOf(*given.given_shape);
+  scene.objects = {std::make_shared<MovingObject>(std::move(given))};
+  const std::string file = FileFor("given.png");
+  ASSERT_TRUE(WriteObjectSheet(scene, {}, file).ok());
+  EXPECT_GT(Picture(file).height(), 200);
+}
+
 TEST(ObjectSheet, RefusesAnUnknownObject) {
   ObjectSheetOptions options;
   options.objects = {7, 8};

@@ -72,6 +72,20 @@ TEST_F(FutureTest, FramesForgetWhatHasComeAndThenTheLastMotionHolds) {
   EXPECT_LT((Where(4.5) - Eigen::Vector3d(4, 1.5, 5)).norm(), 1e-6);
 }
 
+// Whatever frames find shortly before the end.
+TEST_F(FutureTest, GoesOnAsItWasStated) {
+  ASSERT_TRUE(dut_.SetFuture(5, Sideways()).ok());
+  Move(2.999, 1, {0.1, 3.9, 0});
+  EXPECT_EQ(Object().future.size(), 1u);
+  EXPECT_LT((Where(4) - Eigen::Vector3d(4, 6, 0)).norm(), 1e-6);
+  std::vector<StampedPose> parks = Sideways();
+  for (StampedPose& pose : parks) pose.stamp += FromSeconds(2);
+  parks.push_back({At(6), parks.back().T_W_O});
+  ASSERT_TRUE(dut_.SetFuture(5, parks).ok());
+  Move(5.5, 2.999, {0, 0.05, 0});
+  EXPECT_LT((Where(900) - Eigen::Vector3d(4, 4, 0)).norm(), 1e-6);
+}
+
 TEST_F(FutureTest, BridgesAFrameWithoutAMotion) {
   ASSERT_TRUE(dut_.SetFuture(5, Sideways()).ok());
   Frame frame = FrameAt(2.5);

@@ -94,17 +94,16 @@ TEST(MovingObject, BeyondTheHorizonGrowsWithItsSpeed) {
   ExpectNear(beyond.T_W_O, PredictPose(dut, At(2), kHorizon).T_W_O);
 }
 
-MovingObject WithFuture(std::vector<StampedPose> future) {
-  MovingObject object = ObjectWith({{At(0), Pose()}, {At(1), Pose::Translation(1, 0, 0)}},
-                                   Twist{Eigen::Vector3d::Zero(), {1, 0, 0}});
-  object.future = std::move(future);
-  return object;
+MovingObject ObjectBoundFor(std::vector<StampedPose> future) {
+  return WithFuture(ObjectWith({{At(0), Pose()}, {At(1), Pose::Translation(1, 0, 0)}},
+                               Twist{Eigen::Vector3d::Zero(), {1, 0, 0}}),
+                    std::move(future));
 }
 
 TEST(MovingObject, InterpolatesAStatedFuture) {
   Random random(5);
   const Pose b = random.AnyPose(5), c = random.AnyPose(5);
-  const MovingObject dut = WithFuture({{At(2), b}, {At(5), c}});
+  const MovingObject dut = ObjectBoundFor({{At(2), b}, {At(5), c}});
   const Pose& a = dut.history.back().T_W_O;
   ExpectNear(PredictPose(dut, At(0.5), kHorizon).T_W_O, Pose::Translation(0.5, 0, 0));
   ExpectNear(PredictPose(dut, At(1), kHorizon).T_W_O, a);
@@ -117,7 +116,7 @@ TEST(MovingObject, InterpolatesAStatedFuture) {
 
 TEST(MovingObject, GoesOnAsItsFutureEndedAndTheHorizonCountsFromThere) {
   const MovingObject dut =
-      WithFuture({{At(2), Pose::Translation(1, 1, 0)}, {At(4), Pose::Translation(1, 5, 0)}});
+      ObjectBoundFor({{At(2), Pose::Translation(1, 1, 0)}, {At(4), Pose::Translation(1, 5, 0)}});
   ExpectNear(PredictPose(dut, At(5), kHorizon).T_W_O, Pose::Translation(1, 7, 0));
   EXPECT_FALSE(PredictPose(dut, At(6), kHorizon).beyond_horizon_radius_m);
   const PredictedPose beyond = PredictPose(dut, At(7), kHorizon);
@@ -130,13 +129,13 @@ TEST(MovingObject, GoesOnAsItsFutureEndedAndTheHorizonCountsFromThere) {
 
 TEST(MovingObject, StaysForEverWhereItsFutureRests) {
   const Pose there = Pose::Translation(3, 0, 0);
-  const MovingObject dut = WithFuture({{At(2), there}, {At(3), there}});
+  const MovingObject dut = ObjectBoundFor({{At(2), there}, {At(3), there}});
   EXPECT_EQ(PredictPose(dut, At(1000), kHorizon).T_W_O, there);
   EXPECT_FALSE(PredictPose(dut, At(1000), kHorizon).beyond_horizon_radius_m);
 }
 
 TEST(MovingObject, OneFuturePoseGivesTheVelocityFromTheNewestPose) {
-  const MovingObject dut = WithFuture({{At(2), Pose::Translation(1, 3, 0)}});
+  const MovingObject dut = ObjectBoundFor({{At(2), Pose::Translation(1, 3, 0)}});
   ExpectNear(PredictPose(dut, At(3), kHorizon).T_W_O, Pose::Translation(1, 6, 0));
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
 #include "support/random_given.h"
@@ -177,6 +179,46 @@ TEST(ObjectIndex, FollowsAnObjectThatTurns) {
   const Eigen::Vector3d behind_W(1.5, -1.5, 0);
   dut.ForEachNear({behind_W, behind_W}, scene->stamp + FromSeconds(0.5),
                   [](std::size_t) { FAIL() << "it has gone the other way"; });
+}
+
+// Round a square of 20 m a side, ten times, a pose every metre and second.
+TEST(ObjectIndex, FollowsALongFuture) {
+  ThreadPool pool(1);
+  SceneBuilder builder({}, {}, pool);
+  GivenObject given{1, Sphere{0.5}, {Time{}, Pose{}}, {}, {}};
+  Pose T_W_O;
+  for (int k = 1; k <= 800; ++k) {
+    const double turn_rad = k % 20 == 0 ? std::numbers::pi / 2 : 0;
+    T_W_O = T_W_O * Exp({{0, 0, turn_rad}, {1, 0, 0}});
+    given.future.push_back({Time{} + FromSeconds(k), T_W_O});
+  }
+  ASSERT_TRUE(builder.AddObject(given).ok());
+  const ScenePtr scene = builder.Publish();
+  const ObjectIndex dut(*scene, Time{}, Time{} + FromSeconds(60), 8);
+  EXPECT_GT(dut.fastest_mps(), 1);
+  EXPECT_LT(dut.fastest_mps(), 1.6 + 0.5 * std::numbers::pi);
+  int spared = 0, met = 0;
+  for (int k = 0; k <= 2000; ++k) {
+    const Time time = Time{} + FromSeconds(0.4 * k);
+    const Duration half = FromSeconds(k % 3 == 0 ? 1.7 : 0.0);
+    const Eigen::Vector3d p_W = PredictPose(*scene->objects[0], time, {}).T_W_O.translation;
+    const auto visits = [&](const Eigen::Vector3d& place_W) {
+      int count = 0;
+      dut.ForEachNear({place_W, place_W}, time - half, time + half, 0,
+                      [&](std::size_t) { ++count; });
+      return count;
+    };
+    const bool known = time - half >= Time{};
+    met += visits(p_W);
+    spared += visits(p_W + Eigen::Vector3d(0, 0, 1)) == 0;
+    EXPECT_TRUE(visits(p_W + Eigen::Vector3d(4, 4, 0)) == 0 || !known) << k;
+    MovingBall ball{time - half, time + half, p_W, p_W, 0.1};
+    EXPECT_TRUE(dut.MayMeet(0, ball, 0));
+    ball.from_W = ball.until_W = p_W + Eigen::Vector3d(0, 0, 1.5);
+    EXPECT_FALSE(half == Duration::zero() && dut.MayMeet(0, ball, 0)) << k;
+  }
+  EXPECT_EQ(met, 2001);
+  EXPECT_GT(spared, 1200);
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "clearway/geometry/hull.h"
+#include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
+#include "support/random_given.h"
 #include "wire/block_codec.h"
 #include "wire/status.h"
 
@@ -42,8 +45,10 @@ std::vector<ScenePtr> Scenes(int count, unsigned seed) {
   SceneBuilder builder(params, FrameLimits{}, pool);
   std::vector<ScenePtr> scenes = {builder.Publish()};
   RandomFrames frames(seed);
+  testing_support::Random given(seed);
   while (static_cast<int>(scenes.size()) < count) {
     EXPECT_TRUE(builder.Apply(frames.Next()).ok());
+    testing_support::ChangeGivenRandomly(builder, given);
     scenes.push_back(builder.Publish());
   }
   return scenes;
@@ -158,6 +163,40 @@ TEST(BlockCodec, RefusesMasksThatDisagreeWithTheValues) {
   EXPECT_FALSE(DecompressBlocks("x", CompressBlocks(blocks), 10, 1000).ok());  // too many
   blocks[0].log_odds = {1};
   EXPECT_TRUE(DecompressBlocks("x", CompressBlocks(blocks), 10, 1000).ok());
+}
+
+TEST(DeltaWire, GivenShapesAndFuturesSurvive) {
+  ThreadPool pool(1);
+  SceneBuilder builder({}, {}, pool);
+  const auto mesh = std::make_shared<const Mesh>(HullAround(Cylinder{0.3, 1}));
+  const std::vector<Shape> shapes{Sphere{1},          Box{{1, 2, 3}},       Capsule{0.2, 1},
+                                  Cylinder{0.3, 1.8}, ConvexPolytope{mesh}, TriangleMesh{mesh}};
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    GivenObject given{static_cast<ObjectId>(i + 1), shapes[i], {Time{}, Pose{}}, {}, {}};
+    given.future = {{Time{} + FromSeconds(1), Pose::Translation(1, 2, 3)}};
+    ASSERT_TRUE(builder.AddObject(given).ok());
+  }
+  const ScenePtr scene = builder.Publish();
+  const auto delta = Assemble(PartsOf(Diff(nullptr, *scene)));
+  ASSERT_TRUE(delta.ok()) << delta.status();
+  const auto applied = Apply(nullptr, *delta);
+  ASSERT_TRUE(applied.ok()) << applied.status();
+  EXPECT_EQ(applied->Hash(), scene->Hash());
+  EXPECT_TRUE(SameContent(*applied, *scene));
+}
+
+TEST(DeltaWire, BadFuturesAndShapesAreNamed) {
+  v1::SceneDeltaPart part;
+  v1::ObjectDelta* object = part.add_objects();
+  object->set_object_id(1);
+  object->mutable_given_shape();
+  DeltaAssembler no_shape;
+  EXPECT_EQ(FieldOf(no_shape.Add(part).status()), "objects[0].given_shape.shape");
+  object->clear_given_shape();
+  object->mutable_future()->add_stamps_ns(1);
+  DeltaAssembler no_pose;
+  EXPECT_EQ(FieldOf(no_pose.Add(part).status()),
+            "objects[0].future.world_from_object.rotations_xyzw");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "clearway/client/connection.h"
+#include "clearway/scene/given_object.h"
 #include "clearway/wire/answers.h"
 
 namespace clearway {
@@ -60,6 +61,10 @@ class SceneClient {
   absl::StatusOr<Versioned> ClearRegion(const Aabb& box_W) const;
   absl::StatusOr<Versioned> SetKeepOut(std::span<const Aabb> boxes_W) const;
   absl::StatusOr<Versioned> Reset() const;
+  // What is told of objects, see SceneBuilder: all of a call or none.
+  absl::StatusOr<Versioned> AddObjects(std::span<const GivenObject> objects) const;
+  absl::StatusOr<Versioned> RemoveObjects(std::span<const ObjectId> ids) const;
+  absl::StatusOr<Versioned> SetFutures(std::span<const ObjectFuture> futures) const;
 
  private:
   std::shared_ptr<Connection> connection_;

@@ -16,7 +16,7 @@ struct GivenObject {
   ObjectId id = 0;  // above 0, of no object in the scene
   Shape shape;      // a TriangleMesh must be convex
   StampedPose pose;
-  std::optional<Twist> velocity_O;  // as MovingObject::velocity_O; none: it stays
+  std::optional<Twist> velocity_O;  // of its motion on from there; none: it is at rest
   std::vector<StampedPose> future;  // as MovingObject::future
 };
 

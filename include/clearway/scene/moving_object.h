@@ -55,6 +55,9 @@ struct MovingObject {
   // Poses to come, as somebody stated them, by ascending stamp, all after t_k; they count instead
   // of the last motion.
   std::vector<StampedPose> future;
+  // How it goes on after them: of their last interval, as they were stated (see WithFuture). Zero
+  // without a future.
+  Twist future_velocity_O;
   // Constant body-frame velocity of the last motion (rad/s, m/s at O's origin); none while no
   // motion is known.
   std::optional<Twist> velocity_O;
@@ -77,8 +80,10 @@ struct MovingObject {
 
   // The last pose that is known or stated: from here on it is extrapolated.
   const StampedPose& LastPose() const { return future.empty() ? history.back() : future.back(); }
-  // The velocity of that: of the last motion, or of the future's last interval. Zero at rest.
-  Twist LastVelocity() const;
+  // The velocity of that, zero at rest.
+  Twist LastVelocity() const {
+    return future.empty() ? velocity_O.value_or(Twist{}) : future_velocity_O;
+  }
   // The two poses in turn, known or stated, between which `t` lies: before->stamp <= t <
   // after->stamp. `t` must lie between the first of them all and the last.
   struct Interval {
@@ -90,6 +95,9 @@ struct MovingObject {
 
 // The object with another map, its solid and box made to fit.
 MovingObject WithMap(MovingObject object, VoxelMap map_O);
+// The object with another future, and the velocity that follows from it; its first interval begins
+// at the object's newest pose.
+MovingObject WithFuture(MovingObject object, std::vector<StampedPose> future);
 
 // Where an object is at a time.
 struct PredictedPose {

@@ -46,7 +46,7 @@ class ObjectIndex {
   // Whether the object, grown likewise, may meet the ball on its way.
   bool MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const;
 
-  // No point of any object is faster from its t_k on.
+  // No point of any object is faster from its t_k on, but for jumps between stated poses.
   double fastest_mps() const { return fastest_mps_; }
 
  private:

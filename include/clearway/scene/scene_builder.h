@@ -22,11 +22,11 @@ struct FrameReport {
   std::size_t points_not_finite = 0;
   std::size_t points_self = 0;  // on the robot's own body
   std::size_t points_out_of_bounds = 0;
-  // Of those used, the ones of given objects: their rays clear, and they hit nothing.
-  std::size_t points_given = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   std::size_t objects_created = 0;
   std::size_t objects_dropped = 0;  // one that begins anew is dropped and created
+  // Of those used, the ones of given objects: their rays clear, and they hit nothing.
+  std::size_t points_given = 0;
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at

@@ -32,6 +32,7 @@ struct ObjectDelta {
   // Instead of `future`: that of `from` without the poses up to t_k. A future is long, and frames
   // shorten it.
   bool keeps_future = false;
+  Twist future_velocity_O;
   bool given = false;
   std::shared_ptr<const Shape> given_shape;  // null: that of `from`, or none if it is not given
   std::optional<Twist> velocity_O;

@@ -25,13 +25,15 @@ struct ObjectInfo {
   Time t_k;
   std::optional<Twist> velocity_O;
   double speed_mps = 0;
-  Aabb box_O;  // around the occupied voxels
+  Aabb box_O;  // around the occupied voxels or the given shape
   ObjectExtent extent;
   Aabb box_W;  // around that, where the object is at t_k
   std::int64_t observed_voxels = 0, occupied_voxels = 0;
   Time first_seen, last_seen;
   std::int64_t frames_seen = 0;
   bool at_rest = false, bridged = false;
+  bool given = false;
+  std::optional<Time> future_end;
 };
 struct ObjectList : Versioned {
   std::vector<ObjectInfo> objects;  // ascending ids
