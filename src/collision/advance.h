@@ -9,7 +9,9 @@
 namespace clearway {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
-inline constexpr double kTouching_m = 1e-7;
+// What is this close counts as touched. Half of it is always kept, so that times and poses may be
+// rounded.
+inline constexpr double kTouching_m = 1e-7, kKept_m = 0.5e-7;
 inline constexpr int kMostAdvances = 24;
 
 // From one share of a way to another, by gaps: gap_m(share) is at most the gap at that share of the
@@ -21,9 +23,9 @@ double Advance(double length_m, double from, double until, Gap&& gap_m) {
   for (int step = 0; step < kMostAdvances; ++step) {
     if (share > until) return kNever;
     const double gap = gap_m(share);
-    if (!(gap > kTouching_m)) return share;  // not a number: as bad as none
-    if (gap > length_m) return kNever;       // more than is left
-    share += gap / length_m;
+    if (!(gap > kTouching_m)) return share;       // not a number: as bad as none
+    if (gap - kKept_m > length_m) return kNever;  // more than is left
+    share += (gap - kKept_m) / length_m;
   }
   return share > until ? kNever : share;
 }
@@ -38,8 +40,8 @@ double AdvanceAlong(const Eigen::Vector3d& way_F, double margin_m, double from, 
     const Separation here = apart(share);
     const double gap_m = here.gap_m - margin_m, used_m = here.direction.dot(way_F);
     if (!(gap_m > kTouching_m)) return share;  // not a number: as bad as none
-    if (gap_m > (until - share) * used_m) return kNever;
-    share += gap_m / used_m;
+    if (gap_m - kKept_m > (until - share) * used_m) return kNever;
+    share += (gap_m - kKept_m) / used_m;
   }
   return share > until ? kNever : share;
 }

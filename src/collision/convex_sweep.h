@@ -25,7 +25,7 @@ inline double FirstTouchOf(const ConvexBody& moving, const Eigen::Vector3d& way,
         },
         standing.farthest, look, margin_m,
         [&](const Separation& found) {
-          return found.gap_m - margin_m > (until - share) * found.direction.dot(way);
+          return found.gap_m - margin_m - kKept_m > (until - share) * found.direction.dot(way);
         });
     look = apart.direction;
     return apart;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "collision/body_contact.h"
 
@@ -32,9 +33,10 @@ FirstTouch LeaveBounds(const Aabb& bounds_F, const Sweep& sweep) {
     const double before = box.min[axis] - bounds_F.min[axis];
     const double behind = bounds_F.max[axis] - box.max[axis];
     // What is not a number is out of bounds.
-    if (!(before >= 0 && behind >= 0)) return {0, std::nullopt};
-    if (!(way <= behind)) share = std::min(share, way > 0 ? behind / way : 0.0);
-    if (!(-way <= before)) share = std::min(share, way < 0 ? before / -way : 0.0);
+    if (!(before >= 0 && behind >= 0 && std::abs(way) >= 0)) return {0, std::nullopt};
+    const double left = (way > 0 ? behind : before) - kKept_m;
+    if (std::abs(way) > left && way != 0)
+      share = std::min(share, std::max(0.0, left) / std::abs(way));
   }
   return {share, std::nullopt};
 }

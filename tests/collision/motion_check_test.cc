@@ -113,6 +113,19 @@ TEST(MotionCheck, NothingCalledFreeIsInContact) {
   EXPECT_GT(counts.with_voxel, counts.motions / 5);
 }
 
+// Where a nanosecond before the end of what was proved free the robot touched something, by
+// rounding.
+TEST(MotionCheck, WhatIsFreeIsNotTouchedByRounding) {
+  RandomWorld random(90518);
+  const ScenePtr scene = random.Scene();
+  const Robot robot = random.AnyRobot();
+  const SceneChecker checker(scene, robot);
+  const Asked asked = RandomMotions(random, robot, 20);
+  Counts counts;
+  CheckMotions(checker, asked, RandomMotionOptions(random, robot), 200, counts);
+  EXPECT_EQ(counts.motions, 20);
+}
+
 // From (-2, 0, 0) to (2, 0, 0) in 2 s past a wall whose near side is at x = 1.
 class MotionCheckAtAWall : public testing::Test {
  protected:
