@@ -146,6 +146,7 @@ Outcome PlanIn(const World& world) {
       SceneOf(world), Robot::SingleShape("disc", Cylinder{kRobotRadius_m, 1}));
   PlanningOptions options;
   options.check.unknown = UnknownPolicy::kFree;
+  options.contact_resolution_m = 0.1;  // to go on it is enough to know of a contact
   Ground ground;
   ground.clearance_m = -0.5;  // the discs' centres are at height 0
   ob::ScopedState<> start(space), goal(space);

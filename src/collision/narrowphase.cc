@@ -3,6 +3,7 @@
 #include <fcl/geometry/shape/box.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -35,17 +36,25 @@ std::shared_ptr<const PreparedMesh> Prepare(const Shape& shape, Reuse reuse,
 
 Aabb Moved(const Aabb& box, const Eigen::Vector3d& by) { return {box.min + by, box.max + by}; }
 
+// Four at a time, without a branch that could be guessed wrong.
 const Eigen::Vector3d& FarthestOf(const std::vector<Eigen::Vector3d>& points,
                                   const Eigen::Vector3d& direction) {
-  std::size_t index = 0;
-  double farthest = direction.dot(points[0]);
-  for (std::size_t i = 1; i < points.size(); ++i) {
+  constexpr std::size_t kLanes = 4;
+  std::array<double, kLanes> farthest;
+  std::array<std::size_t, kLanes> index{};
+  farthest.fill(direction.dot(points[0]));
+  const auto look = [&](std::size_t i, std::size_t lane) {
     const double far = direction.dot(points[i]);
-    if (far <= farthest) continue;
-    farthest = far;
-    index = i;
+    index[lane] = far > farthest[lane] ? i : index[lane];
+    farthest[lane] = far > farthest[lane] ? far : farthest[lane];
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= points.size(); i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) look(i + lane, lane);
   }
-  return points[index];
+  for (; i < points.size(); ++i) look(i, 0);
+  const auto best = std::max_element(farthest.begin(), farthest.end());
+  return points[index[best - farthest.begin()]];
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ std::vector<Stay> IntervalSearch::Find(const Question& question) {
   open_.clear();
   stays_at_.assign(roadmap_.size(), {});
   held_.resize(roadmap_.size());
+  left_s_.assign(roadmap_.size(), std::nullopt);
   for (const auto& [place, seconds] : question.starts) AddStay(place, seconds, -1, seconds);
   const std::size_t before = checks_.ways_asked();
   const auto enough = [&] { return checks_.ways_asked() - before >= question.most_ways; };
@@ -35,19 +36,21 @@ std::vector<Stay> IntervalSearch::Find(const Question& question) {
   return {};
 }
 
-double IntervalSearch::LeftSeconds(std::size_t place) const {
+double IntervalSearch::LeftSeconds(std::size_t place) {
+  if (left_s_[place]) return *left_s_[place];
   double left_s = std::numeric_limits<double>::infinity();
   for (const std::size_t goal : question_->goals) {
     left_s = std::min(left_s, roadmap_.Seconds(place, goal));
   }
+  left_s_[place] = left_s;
   return left_s;
 }
 
-void IntervalSearch::Propose(int stay, std::size_t to, double depart_s) {
+void IntervalSearch::Propose(int stay, const Roadmap::Neighbor& to, double depart_s) {
   const Stay& from = stays_[stay];
-  if (depart_s > from.leave_by_s || never_.contains({from.place, to})) return;
-  const double arrival_s = depart_s + roadmap_.Seconds(from.place, to);
-  const double left_s = LeftSeconds(to);
+  if (depart_s > from.leave_by_s || never_.contains({from.place, to.place})) return;
+  const double arrival_s = depart_s + to.seconds;
+  const double left_s = LeftSeconds(to.place);
   if (arrival_s + left_s >= std::min(question_->earlier_than_s, space_.latest_s())) return;
   open_.push_back({arrival_s + question_->weight * left_s, stay, to, depart_s});
   std::push_heap(open_.begin(), open_.end());
@@ -79,11 +82,10 @@ bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, do
       question_->arrived(place, arrival_s)) {
     return true;
   }
-  for (const std::size_t to : roadmap_.Near(place)) Propose(stay, to, arrival_s);
+  for (const Roadmap::Neighbor& to : roadmap_.Near(place)) Propose(stay, to, arrival_s);
   for (const std::size_t goal : question_->goals) {
-    if (goal != place &&
-        std::ranges::find(roadmap_.Near(place), goal) == roadmap_.Near(place).end())
-      Propose(stay, goal, arrival_s);
+    if (goal == place || roadmap_.Joined(place, goal)) continue;
+    Propose(stay, {goal, roadmap_.Seconds(place, goal)}, arrival_s);
   }
   return false;
 }
@@ -101,20 +103,19 @@ const WayAnswer& IntervalSearch::Ask(std::size_t from, std::size_t to, double de
 bool IntervalSearch::Follow(const Candidate& candidate) {
   const auto [priority, stay, to, depart_s] = candidate;
   const std::size_t from = stays_[stay].place;
-  const double seconds = roadmap_.Seconds(from, to);
-  const double arrival_s = depart_s + seconds;
-  if (const auto held_until_s = HeldUntil(to, arrival_s)) {
+  const double arrival_s = depart_s + to.seconds;
+  if (const auto held_until_s = HeldUntil(to.place, arrival_s)) {
     // Nothing is gained but by the next time that the place is free.
-    Propose(stay, to, *held_until_s - seconds + kSoon_s);
+    Propose(stay, to, *held_until_s - to.seconds + kSoon_s);
     return false;
   }
-  const WayAnswer answer = Ask(from, to, depart_s, arrival_s);
+  const WayAnswer answer = Ask(from, to.place, depart_s, arrival_s);
   if (answer.free) {
-    if (AddStay(to, arrival_s, stay, depart_s)) return true;
-    Propose(stay, to, stays_.back().leave_by_s - seconds + kSoon_s);
+    if (AddStay(to.place, arrival_s, stay, depart_s)) return true;
+    Propose(stay, to, stays_.back().leave_by_s - to.seconds + kSoon_s);
   } else if (answer.never) {
-    never_.insert({from, to});
-    never_.insert({to, from});
+    never_.insert({from, to.place});
+    never_.insert({to.place, from});
   } else {
     Propose(stay, to, std::max(depart_s + 10 * kSoon_s, answer.not_before_s));
   }

@@ -50,19 +50,20 @@ class IntervalSearch {
   struct Candidate {
     double priority;
     int stay;
-    std::size_t to;
+    Roadmap::Neighbor to;
     double depart_s;
     bool operator<(const Candidate& other) const { return priority > other.priority; }
   };
 
-  void Propose(int stay, std::size_t to, double depart_s);
+  void Propose(int stay, const Roadmap::Neighbor& to, double depart_s);
   bool AddStay(std::size_t place, double arrival_s, int before, double departed_s);
   // Looks at the most promising candidate. Whether that reached a goal.
   bool Follow(const Candidate& candidate);
   // Until when the place can be held, if that is known to be reached no later.
   std::optional<double> HeldUntil(std::size_t place, double arrival_s) const;
   double LeaveBy(std::size_t place, double arrival_s);
-  double LeftSeconds(std::size_t place) const;
+  // At full speed from the place to the nearest goal.
+  double LeftSeconds(std::size_t place);
   const WayAnswer& Ask(std::size_t from, std::size_t to, double depart_s, double arrival_s);
 
   const SpaceTimeStateSpace& space_;
@@ -72,8 +73,9 @@ class IntervalSearch {
   // Of the search at hand.
   const Question* question_ = nullptr;
   std::vector<Stay> stays_;
-  std::vector<std::vector<int>> stays_at_;  // by place
-  std::vector<Candidate> open_;             // a heap
+  std::vector<std::vector<int>> stays_at_;     // by place
+  std::vector<Candidate> open_;                // a heap
+  std::vector<std::optional<double>> left_s_;  // by place
 
   // Of all searches.
   using Way = std::pair<std::size_t, std::size_t>;

@@ -30,10 +30,14 @@ std::size_t Roadmap::Add(const ompl::base::State* part) {
   return added;
 }
 
+bool Roadmap::Joined(std::size_t a, std::size_t b) const {
+  return std::ranges::find(places_[a].near, b, &Neighbor::place) != places_[a].near.end();
+}
+
 void Roadmap::Join(std::size_t a, std::size_t b) {
-  if (a == b || std::ranges::find(places_[a].near, b) != places_[a].near.end()) return;
-  places_[a].near.push_back(b);
-  places_[b].near.push_back(a);
+  if (a == b || Joined(a, b)) return;
+  places_[a].near.push_back({b, Seconds(a, b)});
+  places_[b].near.push_back({a, Seconds(b, a)});
 }
 
 }  // namespace clearway

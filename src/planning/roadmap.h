@@ -24,9 +24,16 @@ class Roadmap {
   // Joins two places, both ways, if they are not joined yet.
   void Join(std::size_t a, std::size_t b);
 
+  // A place, and how long the way there takes.
+  struct Neighbor {
+    std::size_t place;
+    double seconds;
+  };
+
   std::size_t size() const { return places_.size(); }
   const ompl::base::State* Place(std::size_t place) const { return places_[place].part; }
-  const std::vector<std::size_t>& Near(std::size_t place) const { return places_[place].near; }
+  const std::vector<Neighbor>& Near(std::size_t place) const { return places_[place].near; }
+  bool Joined(std::size_t a, std::size_t b) const;
   double Seconds(std::size_t from, std::size_t to) const {
     return space_.MinSeconds(places_[from].part, places_[to].part);
   }
@@ -34,7 +41,7 @@ class Roadmap {
  private:
   struct OnePlace {
     ompl::base::State* part;
-    std::vector<std::size_t> near;
+    std::vector<Neighbor> near;
   };
 
   const SpaceTimeStateSpace& space_;
