@@ -33,6 +33,12 @@ AT_MOST = {
     "query_p99_while_writing_x": 1.3,
     "delta_mb_per_scan": 3,
     "motion_unresolved_fraction": 0.01,
+    "proof_random_free_in_contact": 0,
+    "proof_real_free_in_contact": 0,
+    "proof_random_witnesses_free": 0,
+    "proof_real_witnesses_free": 0,
+    "proof_random_unresolved_fraction": 0.01,
+    "proof_real_unresolved_fraction": 0.01,
     # A tenth of what OMPL 2.0.2's ST-RRT* takes (113 and 489 ms), and its arrivals.
     "discs_first_40_ms": 11.3,
     "discs_first_60_ms": 48.9,
