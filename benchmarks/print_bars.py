@@ -24,6 +24,7 @@ AT_LEAST = {
     "mirror_vs_local_x": 0.9,
     "motion_vs_sampled_x": 5,
     "motion_vs_fcl_x": 100,
+    "discs_solved_fraction": 1,
 }
 AT_MOST = {
     "publish_ms": 1,

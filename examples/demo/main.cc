@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
                  "Metres a second by which predictions grow; the first that leaves a way")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 2.0));
-  app.add_option("--iterations", options.planning.iterations, "Of the planner, at most")
+  app.add_option("--iterations", options.planning.iterations,
+                 "How many ways the planner follows, at most, with each inflation")
       ->check(CLI::Range(1u, 10'000'000u));
   app.add_option("--seed", seed, "Of the planner's random numbers")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);

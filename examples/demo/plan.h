@@ -25,7 +25,7 @@ struct PlanSettings {
   double max_unknown_fraction = 0.5;
   double ground_clearance_m = 0.2;  // of the robot over the fitted ground: two voxels
   double max_turn_radps = 1.5;
-  unsigned int iterations = 3000;  // of the planner, with each inflation
+  unsigned int iterations = 3000;  // ways the planner follows, with each inflation
   std::vector<ObjectId> ignored_objects;
 };
 
