@@ -84,17 +84,17 @@ std::uint64_t BitsOf(std::int32_t first, std::int32_t last, std::int32_t base) {
 
 }  // namespace
 
-CenterMasks::CenterMasks(const VoxelGrid& grid, const LooseShape& shape)
-    : grid_(grid), shape_(shape), contact_(shape.shape_W, 0) {
+CenterMasks::CenterMasks(const VoxelGrid& grid, const Sweep& sweep)
+    : grid_(grid), sweep_(sweep), contact_(sweep.shape_F, 0) {
   KeyRange keys;
-  if (!KeysTouching(grid, shape.Box(), keys)) return;
+  if (!KeysTouching(grid, sweep.Box(), keys)) return;
   keys_ = keys;
-  if (const auto box = shape.shape_W.AsBox()) MakeRows(*box);
+  if (const auto box = sweep.shape_F.AsBox()) MakeRows(*box);
 }
 
 void CenterMasks::MakeRows(const TurnedBox& box) {
-  const Polytope perhaps = MayBeIn(box, shape_.way_W, shape_.margin_m + kRounding_m);
-  const Polytope surely = SurelyIn(box, shape_.way_W, shape_.margin_m + kRounding_m);
+  const Polytope perhaps = MayBeIn(box, sweep_.way_F, sweep_.margin_m + kRounding_m);
+  const Polytope surely = SurelyIn(box, sweep_.way_F, sweep_.margin_m + kRounding_m);
   const double per_m = 1 / grid_.resolution_m(), first_x = grid_.CenterOf(keys_->min).x();
   const double most = keys_->max.x - keys_->min.x;
   // Of keys from the lowest one on.
@@ -150,7 +150,9 @@ void CenterMasks::AddRows(BlockKey block, Masks& masks) const {
 
 // By directions if they are known, else as if the shape were grown by all of its way.
 bool CenterMasks::Perhaps(const Eigen::Vector3d& center_W) const {
-  const auto& [shape_W, way_W, margin_m] = shape_;
+  const PlacedShape& shape_W = sweep_.shape_F;
+  const Eigen::Vector3d& way_W = sweep_.way_F;
+  const double margin_m = sweep_.margin_m;
   if (contact_.Apart(center_W, 0)) {
     const double share = AdvanceAlong(way_W, margin_m, 0, 1, [&](double at) {
       return *contact_.Apart(center_W - at * way_W, 0);
@@ -164,7 +166,9 @@ bool CenterMasks::Perhaps(const Eigen::Vector3d& center_W) const {
 
 // A convex shape that holds a ball at both ends does so in between.
 bool CenterMasks::Surely(const Eigen::Vector3d& center_W) const {
-  const auto& [shape_W, way_W, margin_m] = shape_;
+  const PlacedShape& shape_W = sweep_.shape_F;
+  const Eigen::Vector3d& way_W = sweep_.way_F;
+  const double margin_m = sweep_.margin_m;
   const double radius_m = margin_m + kRounding_m;
   if (!shape_W.geometry().convex()) {
     return shape_W.Holds(center_W - 0.5 * way_W, radius_m + 0.5 * way_W.norm());

@@ -203,12 +203,11 @@ void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) {
 }
 
 double MotionCheck::MostUnknownShare(const TimeSpan& span) const {
-  std::vector<LooseShape> shapes;
+  std::vector<Sweep> sweeps;
   for (const MovingPart& part : leg_.parts) {
-    const Sweep bare = part.InWorld(part.During(span), 0).sweep;
-    shapes.push_back({bare.shape_F, bare.way_F, bare.margin_m});
+    sweeps.push_back(part.InWorld(part.During(span), 0).sweep);
   }
-  return MostUnknownShareOf(scene_.static_map_W, options_.known_free_W, shapes,
+  return MostUnknownShareOf(scene_.static_map_W, options_.known_free_W, sweeps,
                             context_.check.cancelled);
 }
 

@@ -17,9 +17,9 @@ struct Count {
 
 // Whether a voxel in the boxes of the shapes was never observed: if none was, nothing has to be
 // counted.
-bool AnyUnobserved(const VoxelMap& map, const std::vector<LooseShape>& shapes,
+bool AnyUnobserved(const VoxelMap& map, const std::vector<Sweep>& shapes,
                    const Cancelled& cancelled) {
-  for (const LooseShape& shape : shapes) {
+  for (const Sweep& shape : shapes) {
     KeyRange keys;
     if (!KeysTouching(map.grid(), shape.Box(), keys)) continue;
     const bool any =
@@ -36,11 +36,11 @@ bool AnyUnobserved(const VoxelMap& map, const std::vector<LooseShape>& shapes,
 // Calls visit(BlockKey, const VoxelBlock*, masks) for the blocks near the shapes, each once, with
 // the marks of all shapes.
 template <class Visit>
-void ForEachBlock(const VoxelMap& map, const std::vector<LooseShape>& shapes,
-                  const Cancelled& cancelled, Visit&& visit) {
+void ForEachBlock(const VoxelMap& map, const std::vector<Sweep>& shapes, const Cancelled& cancelled,
+                  Visit&& visit) {
   std::vector<CenterMasks> parts;
   parts.reserve(shapes.size());
-  for (const LooseShape& shape : shapes) parts.emplace_back(map.grid(), shape);
+  for (const Sweep& shape : shapes) parts.emplace_back(map.grid(), shape);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].Empty()) continue;
     AnyBlock(map.blocks(), parts[i].first(), parts[i].last(),
@@ -75,16 +75,14 @@ int CountOfBoth(const BlockMask& a, const BlockMask& b) {
 }
 
 Count CountInside(const VoxelMap& map, const std::vector<Aabb>& known_free,
-                  const std::vector<LooseShape>& standing, const Cancelled& cancelled) {
+                  const std::vector<Sweep>& standing, const Cancelled& cancelled) {
   Count count;
   ForEachBlock(map, standing, cancelled,
                [&](BlockKey key, const VoxelBlock* block, const CenterMasks::Masks& masks) {
                  BlockMask inside = masks.surely, unsure = masks.perhaps;
                  unsure.Subtract(inside).ForEach([&](int index) {
                    const Eigen::Vector3d center = map.grid().CenterOf(VoxelAt(key, index));
-                   const auto holds = [&](const LooseShape& s) {
-                     return s.shape_W.Contains(center);
-                   };
+                   const auto holds = [&](const Sweep& s) { return s.shape_F.Contains(center); };
                    if (std::any_of(standing.begin(), standing.end(), holds)) inside.Set(index);
                  });
                  count.all += inside.Count();
@@ -110,19 +108,20 @@ Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
 
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                       const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled) {
-  std::vector<LooseShape> standing;
+  std::vector<Sweep> standing;
   standing.reserve(shapes_W.size());
-  for (const PlacedShape* shape : shapes_W) standing.push_back({*shape});
+  for (const PlacedShape* shape : shapes_W)
+    standing.push_back({*shape, Eigen::Vector3d::Zero(), 0});
   if (!AnyUnobserved(map_W, standing, cancelled)) return 0;
   const Count inside = CountInside(map_W, known_free_W, standing, cancelled);
   return inside.all > 0 ? inside.Share() : CountAtCenters(map_W, known_free_W, shapes_W).Share();
 }
 
 double MostUnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
-                          const std::vector<LooseShape>& shapes_W, const Cancelled& cancelled) {
-  if (!AnyUnobserved(map_W, shapes_W, cancelled)) return 0;
+                          const std::vector<Sweep>& sweeps_W, const Cancelled& cancelled) {
+  if (!AnyUnobserved(map_W, sweeps_W, cancelled)) return 0;
   std::int64_t unknown = 0, known = 0;
-  ForEachBlock(map_W, shapes_W, cancelled,
+  ForEachBlock(map_W, sweeps_W, cancelled,
                [&](BlockKey key, const VoxelBlock* block, const CenterMasks::Masks& masks) {
                  const BlockMask unknown_here = UnknownIn(map_W, key, block, known_free_W);
                  unknown += CountOfBoth(masks.perhaps, unknown_here);

@@ -17,8 +17,9 @@ namespace clearway {
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
                       const std::vector<const PlacedShape*>& shapes_W, const Cancelled& cancelled);
 
-// At least what UnknownShareOf says wherever the shapes are on their ways, together.
+// At least what UnknownShareOf says wherever the shapes are on their ways and
+// within their margins.
 double MostUnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
-                          const std::vector<LooseShape>& shapes_W, const Cancelled& cancelled);
+                          const std::vector<Sweep>& sweeps_W, const Cancelled& cancelled);
 
 }  // namespace clearway

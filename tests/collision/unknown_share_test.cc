@@ -123,7 +123,7 @@ TEST(MostUnknownShare, HoldsWhereverTheShapesAre) {
     const Eigen::Vector3d corner = random.Vector(1);
     const std::vector<Aabb> known_free{{corner, corner + Eigen::Vector3d::Constant(1)}};
     std::deque<ShapeGeometry> geometries;
-    std::vector<LooseShape> loose;
+    std::vector<Sweep> loose;
     std::vector<Pose> places;
     std::vector<Eigen::Vector3d> ways;
     for (int k = random.Integer(1, 3); k > 0; --k) {
