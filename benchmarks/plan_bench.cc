@@ -8,17 +8,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "clearway/collision/scene_checker.h"
 #include "clearway/planning/space_time_setup.h"
 #include "clearway/scene/scene_builder.h"
+#include "disc_worlds.h"
 #include "summary.h"
 #include "support/data_folder.h"
 
@@ -28,63 +27,16 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-constexpr double kSide_m = 10, kRobotRadius_m = 0.3, kLatest_s = 60, kBudget_s = 1;
+using Disc = DiscWorld::Disc;
 
-// Goes straight and bounces within 0 and kSide_m.
-struct Disc {
-  Eigen::Vector2d p_m, v_mps;
-  double radius_m;
-
-  static double Folded(double coordinate) {
-    const double wave = std::fmod(coordinate, 2 * kSide_m);
-    const double up = wave < 0 ? wave + 2 * kSide_m : wave;
-    return up > kSide_m ? 2 * kSide_m - up : up;
-  }
-  Eigen::Vector2d At(double seconds) const {
-    const Eigen::Vector2d straight = p_m + seconds * v_mps;
-    return {Folded(straight.x()), Folded(straight.y())};
-  }
-  // When it bounces, and kLatest_s.
-  std::vector<double> Turns() const {
-    std::vector<double> turns_s{kLatest_s};
-    for (int axis = 0; axis < 2; ++axis) {
-      const double speed_mps = std::abs(v_mps[axis]);
-      if (speed_mps == 0) continue;
-      const double first_m = v_mps[axis] > 0 ? kSide_m - p_m[axis] : p_m[axis];
-      for (double way_m = first_m; way_m < speed_mps * kLatest_s; way_m += kSide_m) {
-        if (way_m > 0) turns_s.push_back(way_m / speed_mps);
-      }
-    }
-    std::ranges::sort(turns_s);
-    return turns_s;
-  }
-};
-
-struct World {
-  int discs;
-  std::vector<Disc> objects;
-};
-
-std::vector<World> ReadWorlds(const std::filesystem::path& file) {
-  std::vector<World> worlds;
-  std::ifstream stream(file);
-  for (const auto& world : nlohmann::json::parse(stream)) {
-    worlds.push_back({world.at("discs"), {}});
-    for (const auto& o : world.at("objects")) {
-      const std::vector<double> v = o;
-      worlds.back().objects.push_back(
-          {Eigen::Vector2d(v.at(0), v.at(1)), Eigen::Vector2d(v.at(2), v.at(3)), v.at(4)});
-    }
-  }
-  return worlds;
-}
+constexpr double kBudget_s = 1;
 
 Pose PoseOf(const Disc& disc, double seconds) {
   const Eigen::Vector2d p_m = disc.At(seconds);
   return Pose::Translation(p_m.x(), p_m.y(), 0);
 }
 
-ScenePtr SceneOf(const World& world) {
+ScenePtr SceneOf(const DiscWorld& world) {
   ThreadPool pool(1);
   SceneBuilder builder(SceneParams{}, FrameLimits{}, pool);
   std::vector<GivenObject> given;
@@ -108,7 +60,7 @@ ScenePtr SceneOf(const World& world) {
 
 // The least gap between robot and discs along the path, every millisecond, from the discs' own
 // motion.
-double LeastGap_m(const World& world, const og::PathGeometric& path) {
+double LeastGap_m(const DiscWorld& world, const og::PathGeometric& path) {
   double least_m = std::numeric_limits<double>::infinity();
   const auto* space = path.getSpaceInformation()->getStateSpace().get();
   ob::State* const state = space->allocState();
@@ -124,7 +76,7 @@ double LeastGap_m(const World& world, const og::PathGeometric& path) {
       const double seconds = from_s + lasts_s * k / steps;
       for (const Disc& disc : world.objects) {
         const double apart_m = (disc.At(seconds) - Eigen::Vector2d(p[0], p[1])).norm();
-        least_m = std::min(least_m, apart_m - disc.radius_m - kRobotRadius_m);
+        least_m = std::min(least_m, apart_m - disc.radius_m - DiscWorld::kRobotRadius_m);
       }
     }
   }
@@ -137,21 +89,21 @@ struct Outcome {
   double first_ms = 0, arrival_s = 0, gap_m = 0;
 };
 
-Outcome PlanIn(const World& world) {
+Outcome PlanIn(const DiscWorld& world) {
   auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
-  plane->setBounds(0, kSide_m);
-  const auto space =
-      std::make_shared<SpaceTimeStateSpace>(plane, SpeedLimits{1, 1}, FromSeconds(kLatest_s));
+  plane->setBounds(0, DiscWorld::kSide_m);
+  const auto space = std::make_shared<SpaceTimeStateSpace>(
+      plane, SpeedLimits{DiscWorld::kRobotSpeed_mps, 1}, FromSeconds(DiscWorld::kLatest_s));
   const auto checker = std::make_shared<SceneChecker>(
-      SceneOf(world), Robot::SingleShape("disc", Cylinder{kRobotRadius_m, 1}));
+      SceneOf(world), Robot::SingleShape("disc", Cylinder{DiscWorld::kRobotRadius_m, 1}));
   PlanningOptions options;
   options.check.unknown = UnknownPolicy::kFree;
   options.contact_resolution_m = 0.1;  // to go on it is enough to know of a contact
   Ground ground;
   ground.clearance_m = -0.5;  // the discs' centres are at height 0
   ob::ScopedState<> start(space), goal(space);
-  start = std::vector<double>{0.5, 0.5, 0};
-  goal = std::vector<double>{9.5, 9.5, 0};
+  start = std::vector<double>{DiscWorld::kStart_m, DiscWorld::kStart_m, 0};
+  goal = std::vector<double>{DiscWorld::kGoal_m, DiscWorld::kGoal_m, 0};
   const auto setup = MakeSpaceTimeSetup(
       space, checker, StateMapping::R2(checker->robot(), ground, TimeSince{Time()}), options,
       start.get(), SpaceTimeStateSpace::SpacePart(goal.get()), {.tolerance = 0.01});
@@ -181,19 +133,29 @@ double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+// Says why a world was not solved.
+bool HasNoSolution(std::size_t index, const DiscWorld& world) {
+  std::fprintf(stderr, "world %zu, of %d discs: not solved", index, world.discs);
+  const std::optional<double> after_s = NobodyIsLeftAfter(world);
+  if (after_s) {
+    std::fprintf(stderr, "; it has no solution: wherever the robot goes, it is met by %.1f s",
+                 *after_s);
+  }
+  std::fprintf(stderr, "\n");
+  return after_s.has_value();
+}
+
 // Each world once: a repetition has other random places.
-void Discs(benchmark::State& state, const std::vector<World>& worlds) {
+void Discs(benchmark::State& state, const std::vector<DiscWorld>& worlds) {
   for (auto _ : state) {
     std::map<int, std::vector<double>> first_ms, arrival_s;
     std::map<int, int> worlds_of, solved_of;
     for (std::size_t w = 0; w < worlds.size(); ++w) {
       const int discs = worlds[w].discs;
       const Outcome outcome = PlanIn(worlds[w]);
+      if (!outcome.solved && HasNoSolution(w, worlds[w])) continue;
       ++worlds_of[discs];
-      if (!outcome.solved) {
-        std::fprintf(stderr, "world %zu of %d discs: not solved\n", w, discs);
-        continue;
-      }
+      if (!outcome.solved) continue;
       ++solved_of[discs];
       first_ms[discs].push_back(outcome.first_ms);
       arrival_s[discs].push_back(outcome.arrival_s);
@@ -217,7 +179,7 @@ void Register(const Effort& effort) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const auto file = DataPath("discs/worlds.json");
   if (!file) return;  // it has said so
-  const auto worlds = std::make_shared<std::vector<World>>(ReadWorlds(*file));
+  const auto worlds = std::make_shared<std::vector<DiscWorld>>(ReadDiscWorlds(*file));
   Effort few = effort;
   few.repetitions = effort.quick ? 2 : 3;
   Add("discs", few, [=](auto& state) { Discs(state, *worlds); });

@@ -13,6 +13,8 @@ namespace {
 // A first guess of what a sweep may be: longer ones look at more of the map than they pass.
 constexpr double kLongest_m = 3;
 constexpr double kLooseBy_m = 0.15;
+// One that stands still may be any length, and meets what comes by in that time.
+constexpr std::chrono::seconds kFirst{2};
 // How much shorter than the resolution of contacts spans may get, and how many a leg may take.
 constexpr int kFiner = 64, kMostSpans = 1000;
 
@@ -75,7 +77,7 @@ bool MotionCheck::Prove(MotionAnswer& answer) {
   const Duration longest = leg_.longest, shortest = leg_.shortest;
   unknown_step_ = std::max(shortest, longest / 16);
   const Duration least = std::max(Duration(1), shortest / kFiner);
-  Duration length = longest;
+  Duration length = std::min<Duration>(longest, kFirst);
   Time end = leg_.span.until;  // or the earliest contact that is known
   for (int spans = 0; answer.free_until < end && spans < kMostSpans; ++spans) {
     const TimeSpan span{answer.free_until, std::min(end, answer.free_until + length)};
@@ -258,9 +260,9 @@ void MotionCheck::StopAtObject(const MovingPart& part, const MovingPart::Passage
     }
     if (object.solid->box_O.Empty()) continue;
     const auto [sweep, slack_m] = part.InObject(meanwhile, piece, margin_m);
-    const ShapeGeometry* const hull = context_.hulls[i].get();
-    const FirstTouch touch = hull != nullptr ? TouchHull(*hull, sweep, until)
-                                             : TouchOccupied(object.map_O, sweep, until);
+    const ShapeGeometry* const solid = context_.solids[i].get();
+    const FirstTouch touch = solid != nullptr ? TouchShape(*solid, sweep, until)
+                                              : TouchOccupied(object.map_O, sweep, until);
     stop.Add(begins + lasts * touch.share, slack_m);
   }
 }
@@ -300,7 +302,7 @@ std::optional<VoxelKey> MotionCheck::TouchedVoxel(Time t, const StateAnswer& sta
     FirstTouch touch;
     if (object != nullptr) {
       const PredictedPose at = PredictPose(*object, WorldTime(t), scene_.params.horizon);
-      if (at.beyond_horizon_radius_m || object->FillsHull(scene_.params.solid)) continue;
+      if (at.beyond_horizon_radius_m || object->FillsSolid(scene_.params.solid)) continue;
       here.shape_F = here.shape_F.In(Inverse(at.T_W_O));
       here.margin_m += InflationOf(*object, WorldTime(t), options_);
       touch = TouchOccupied(object->map_O, here, 1);

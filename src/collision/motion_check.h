@@ -18,7 +18,7 @@ namespace clearway {
 // What all motions of a batch have in common. Refers to all of it.
 struct MotionContext {
   const CheckContext& check;  // for states
-  const ObjectHulls& hulls;
+  const ObjectSolids& solids;
   const ObjectIndex& index;
   const MotionOptions& options;
 };

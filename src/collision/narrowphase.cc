@@ -205,36 +205,50 @@ double PlacedShape::DistanceTo(const Aabb& box_F, double up_to_m) const {
   });
 }
 
-bool PlacedShape::MeetsHull(const ShapeGeometry& hull, const Pose& T_F_H, double margin_m) const {
-  const Eigen::Matrix3d R_F_H = T_F_H.rotation.toRotationMatrix();
-  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
-    return R_F_H * hull.FarthestOfCore(R_F_H.transpose() * direction_F) + T_F_H.translation;
-  };
-  const Eigen::Vector3d center_F = T_F_H * hull.box_G().Center();
-  const std::optional<bool> meets = Meets(*this, {farthest_F, center_F}, margin_m);
-  return meets ? *meets : DistanceToHull(hull, T_F_H, margin_m) <= margin_m;
+std::optional<ParallelCylinders> PlacedShape::BesideCylinder(const ShapeGeometry& other,
+                                                             const Pose& T_F_O) const {
+  const auto* mine = std::get_if<Cylinder>(&geometry_->shape());
+  const auto* others = std::get_if<Cylinder>(&other.shape());
+  if (mine == nullptr || others == nullptr) return std::nullopt;
+  return ParallelCylinders::Of(*mine, *others, Inverse(T_F_O) * T_F_G_);
 }
 
-double PlacedShape::DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H,
-                                   double up_to_m) const {
+bool PlacedShape::Meets(const ShapeGeometry& other, const Pose& T_F_O, double margin_m) const {
+  if (const auto cylinders = BesideCylinder(other, T_F_O)) return cylinders->Distance() <= margin_m;
+  const Eigen::Matrix3d R_F_O = T_F_O.rotation.toRotationMatrix();
+  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
+    return R_F_O * other.FarthestOfCore(R_F_O.transpose() * direction_F) + T_F_O.translation;
+  };
+  const Eigen::Vector3d center_F = T_F_O * other.box_G().Center();
+  const std::optional<bool> meets =
+      clearway::Meets(*this, {farthest_F, center_F}, margin_m + other.core_radius_m());
+  return meets ? *meets : DistanceToShape(other, T_F_O, margin_m) <= margin_m;
+}
+
+double PlacedShape::DistanceToShape(const ShapeGeometry& other, const Pose& T_F_O,
+                                    double up_to_m) const {
   const Shape& shape = geometry_->shape();
-  const Eigen::Matrix3d R_F_H = T_F_H.rotation.toRotationMatrix();
+  const Eigen::Matrix3d R_F_O = T_F_O.rotation.toRotationMatrix();
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    const Eigen::Vector3d center_H = R_F_H.transpose() * (origin_F() - T_F_H.translation);
-    const double bound_m = PointBoxDistance(center_H, hull.box_G()) - sphere->radius_m;
+    const Eigen::Vector3d center_O = R_F_O.transpose() * (origin_F() - T_F_O.translation);
+    const double bound_m = PointBoxDistance(center_O, other.box_G()) - sphere->radius_m;
     if (bound_m > up_to_m) return bound_m;
-    return std::max(0.0, PointShapeDistance(center_H, hull.shape()) - sphere->radius_m);
+    return std::max(0.0, PointShapeDistance(center_O, other.shape()) - sphere->radius_m);
   }
-  const double bound_m = LowerBound(Transformed(T_F_H, hull.box_G()));
+  if (const auto* sphere = std::get_if<Sphere>(&other.shape())) {
+    return DistanceToBall(T_F_O.translation, sphere->radius_m, up_to_m);
+  }
+  if (const auto cylinders = BesideCylinder(other, T_F_O)) return cylinders->Distance();
+  const double bound_m = LowerBound(Transformed(T_F_O, other.box_G()));
   if (bound_m > up_to_m) return bound_m;
   return ContactIfThrown([&] {
     const FclPair pair{geometry_->fcl().geometry.get(),
-                       Placement(R_F_G_, origin_F() - T_F_H.translation), hull.fcl().geometry.get(),
-                       Placement(R_F_H, Eigen::Vector3d::Zero())};
+                       Placement(R_F_G_, origin_F() - T_F_O.translation),
+                       other.fcl().geometry.get(), Placement(R_F_O, Eigen::Vector3d::Zero())};
     if (!std::holds_alternative<TriangleMesh>(shape)) return Distance(pair);
-    const Mesh& hull_mesh = *std::get<ConvexPolytope>(hull.shape()).mesh;
-    const Eigen::Vector3d corner_F = T_F_H * hull_mesh.vertices.front();
-    return Collide(pair) || Contains(corner_F) ? 0.0 : Distance(pair);
+    // Of the other's points one is as good as another if none is at the surface.
+    const Eigen::Vector3d point_F = T_F_O * other.FarthestOfCore(Eigen::Vector3d::UnitX());
+    return Collide(pair) || Contains(point_F) ? 0.0 : Distance(pair);
   });
 }
 

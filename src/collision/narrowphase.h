@@ -10,6 +10,7 @@
 #include "clearway/geometry/pose.h"
 #include "clearway/geometry/shape.h"
 #include "collision/mesh_budget.h"
+#include "collision/parallel_cylinders.h"
 
 namespace clearway {
 
@@ -92,14 +93,17 @@ class PlacedShape {
   Eigen::Vector3d ToG(const Eigen::Vector3d& p_F) const {
     return R_F_G_.transpose() * (p_F - T_F_G_.translation);
   }
+  // If both are cylinders and their axes are parallel; the other at T_F_O.
+  std::optional<ParallelCylinders> BesideCylinder(const ShapeGeometry& other,
+                                                  const Pose& T_F_O) const;
   // The vector to p from the shape's nearest point, 0 inside; of cylinders alone.
   std::optional<Eigen::Vector3d> FromNearestPoint(const Eigen::Vector3d& p_F) const;
 
   double DistanceTo(const Aabb& box_F, double up_to_m) const;
-  // `hull` is that of a ConvexPolytope, at T_F_H. Above up_to_m it is still at most the distance.
-  double DistanceToHull(const ShapeGeometry& hull, const Pose& T_F_H, double up_to_m) const;
+  // `other` is convex, at T_F_O. Above up_to_m it is still at most the distance.
+  double DistanceToShape(const ShapeGeometry& other, const Pose& T_F_O, double up_to_m) const;
   // Whether the distance is at most margin_m.
-  bool MeetsHull(const ShapeGeometry& hull, const Pose& T_F_H, double margin_m) const;
+  bool Meets(const ShapeGeometry& other, const Pose& T_F_O, double margin_m) const;
   double DistanceToBall(const Eigen::Vector3d& center_F, double radius_m, double up_to_m) const;
 
  private:

@@ -23,17 +23,15 @@ double InflationOf(const MovingObject& object, Time t, const CheckOptions& optio
   return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k()));
 }
 
-ObjectHulls PrepareHulls(const SceneSnapshot& scene) {
-  ObjectHulls hulls;
-  hulls.reserve(scene.objects.size());
+ObjectSolids PrepareSolids(const SceneSnapshot& scene) {
+  ObjectSolids solids;
+  solids.reserve(scene.objects.size());
   for (const auto& object : scene.objects) {
-    const bool wanted =
-        object->FillsHull(scene.params.solid) && !object->solid->hull->triangles.empty();
-    hulls.push_back(wanted
-                        ? std::make_unique<const ShapeGeometry>(ConvexPolytope{object->solid->hull})
-                        : nullptr);
+    const Solid& solid = *object->solid;
+    const bool wanted = object->FillsSolid(scene.params.solid) && !solid.hull->triangles.empty();
+    solids.push_back(wanted ? std::make_unique<const ShapeGeometry>(solid.shape) : nullptr);
   }
-  return hulls;
+  return solids;
 }
 
 const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
@@ -60,7 +58,7 @@ std::optional<PlacedObject> ObjectPlacer::Place(std::size_t index, Time t) const
   if (object.solid->box_O.Empty() && !predicted.beyond_horizon_radius_m) return std::nullopt;
   PlacedObject placed;
   placed.object = &object;
-  placed.hull = hulls_[index].get();
+  placed.solid = solids_[index].get();
   placed.T_W_O = predicted.T_W_O;
   placed.T_O_W = Inverse(predicted.T_W_O);
   placed.ball_radius_m = predicted.beyond_horizon_radius_m;
@@ -71,8 +69,8 @@ std::optional<PlacedObject> ObjectPlacer::Place(std::size_t index, Time t) const
 
 bool Touches(const PlacedObject& placed, const PlacedShape& shape_W, double padding_m) {
   if (placed.ball_radius_m) return DistanceTo(placed, shape_W, padding_m) <= padding_m;
-  if (placed.hull != nullptr) {
-    return shape_W.MeetsHull(*placed.hull, placed.T_W_O, padding_m + placed.margin_m);
+  if (placed.solid != nullptr) {
+    return shape_W.Meets(*placed.solid, placed.T_W_O, padding_m + placed.margin_m);
   }
   return TouchesOccupied(placed.object->map_O, shape_W.In(placed.T_O_W),
                          padding_m + placed.margin_m);
@@ -83,8 +81,8 @@ double DistanceTo(const PlacedObject& placed, const PlacedShape& shape_W, double
   double distance_m = 0;
   if (placed.ball_radius_m) {
     distance_m = shape_W.DistanceToBall(placed.T_W_O.translation, *placed.ball_radius_m, search_m);
-  } else if (placed.hull != nullptr) {
-    distance_m = shape_W.DistanceToHull(*placed.hull, placed.T_W_O, search_m);
+  } else if (placed.solid != nullptr) {
+    distance_m = shape_W.DistanceToShape(*placed.solid, placed.T_W_O, search_m);
   } else {
     distance_m = DistanceToOccupied(placed.object->map_O, shape_W.In(placed.T_O_W), search_m);
   }

@@ -11,19 +11,20 @@
 
 namespace clearway {
 
-// The hulls of a scene's objects, prepared once for all checks; null where an object has none. In
-// the order of the scene's objects.
-using ObjectHulls = std::vector<std::unique_ptr<const ShapeGeometry>>;
-ObjectHulls PrepareHulls(const SceneSnapshot& scene);
+// What a scene's objects fill, as convex shapes prepared once for all checks: the hulls of their
+// voxels and the shapes that are given; null where an object's voxels alone count. In the order of
+// the scene's objects.
+using ObjectSolids = std::vector<std::unique_ptr<const ShapeGeometry>>;
+ObjectSolids PrepareSolids(const SceneSnapshot& scene);
 
 // By how much the object is grown at `t`, in metres.
 double InflationOf(const MovingObject& object, Time t, const CheckOptions& options);
 
 // What an object blocks at one time: beyond its horizon a ball, else its solid. Refers to the scene
-// and to its hull.
+// and to its shape.
 struct PlacedObject {
   const MovingObject* object = nullptr;
-  const ShapeGeometry* hull = nullptr;  // null if its voxels alone count
+  const ShapeGeometry* solid = nullptr;  // null if its voxels alone count
   Pose T_W_O;
   Pose T_O_W;
   std::optional<double> ball_radius_m;  // about O's origin
@@ -35,9 +36,9 @@ struct PlacedObject {
 // time. One thread. Refers to what it is made of.
 class ObjectPlacer {
  public:
-  ObjectPlacer(const SceneSnapshot& scene, const ObjectHulls& hulls, const ObjectIndex& index,
+  ObjectPlacer(const SceneSnapshot& scene, const ObjectSolids& solids, const ObjectIndex& index,
                const CheckOptions& options)
-      : scene_(scene), hulls_(hulls), index_(index), options_(options) {}
+      : scene_(scene), solids_(solids), index_(index), options_(options) {}
 
   // The objects that may meet the box at `t` and are not ignored, by ascending ids, and perhaps a
   // few others. Valid until the next call.
@@ -47,7 +48,7 @@ class ObjectPlacer {
   std::optional<PlacedObject> Place(std::size_t index, Time t) const;
 
   const SceneSnapshot& scene_;
-  const ObjectHulls& hulls_;
+  const ObjectSolids& solids_;
   const ObjectIndex& index_;
   const CheckOptions& options_;
   Time time_;                        // of what follows

@@ -35,13 +35,13 @@ ObjectIndex IndexOf(const SceneSnapshot& scene) {
 struct SceneChecker::Impl {
   ScenePtr scene;
   std::shared_ptr<const PreparedRobot> robot;
-  ObjectHulls hulls;
+  ObjectSolids solids;
   ObjectIndex index;
 };
 
 SceneChecker::SceneChecker(ScenePtr scene, std::shared_ptr<const PreparedRobot> robot)
     : impl_(std::make_unique<const Impl>(
-          Impl{scene, std::move(robot), PrepareHulls(*scene), IndexOf(*scene)})) {}
+          Impl{scene, std::move(robot), PrepareSolids(*scene), IndexOf(*scene)})) {}
 
 SceneChecker::SceneChecker(ScenePtr scene, Robot robot)
     : SceneChecker(std::move(scene), std::make_shared<const PreparedRobot>(std::move(robot))) {}
@@ -61,7 +61,7 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
                                                             options.allowed_contacts.end());
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
-  ObjectPlacer objects(*impl_->scene, impl_->hulls, impl_->index, options);
+  ObjectPlacer objects(*impl_->scene, impl_->solids, impl_->index, options);
   const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
   StateCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
@@ -87,9 +87,9 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
   reply.answers.resize(motions.knot_counts.size());
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
                                                             options.check.allowed_contacts.end());
-  ObjectPlacer objects(scene, impl_->hulls, impl_->index, options.check);
+  ObjectPlacer objects(scene, impl_->solids, impl_->index, options.check);
   const CheckContext states{scene, options.check, allowed_contacts, objects, cancelled};
-  const MotionContext context{states, impl_->hulls, impl_->index, options};
+  const MotionContext context{states, impl_->solids, impl_->index, options};
   MotionCheck check(context, impl_->robot->geometry());
   const std::size_t links = robot().links.size();
   std::size_t knot = 0;

@@ -41,8 +41,8 @@ FirstTouch TouchOccupied(const VoxelMap& map_F, const Sweep& sweep, double until
 FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known_free_F,
                            const Sweep& sweep, double until, const Cancelled& cancelled);
 FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until);
-// A convex hull whose frame is F.
-FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until);
+// A convex shape whose frame is F.
+FirstTouch TouchShape(const ShapeGeometry& shape, const Sweep& sweep, double until);
 FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,
                      double until);
 

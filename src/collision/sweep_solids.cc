@@ -12,11 +12,17 @@ FirstTouch TouchBox(const Aabb& box_F, const Sweep& sweep, double until) {
   return {FirstTouchOf(sweep, {farthest_F, box_F.Center()}, 0, 0, until), std::nullopt};
 }
 
-FirstTouch TouchHull(const ShapeGeometry& hull, const Sweep& sweep, double until) {
+FirstTouch TouchShape(const ShapeGeometry& shape, const Sweep& sweep, double until) {
+  if (const auto cylinders = sweep.shape_F.BesideCylinder(shape, {})) {
+    const auto share = cylinders->FirstTouch(sweep.way_F, sweep.margin_m, until);
+    if (share) return {*share, std::nullopt};
+  }
   const auto farthest_F = [&](const Eigen::Vector3d& direction_F) {
-    return hull.FarthestOfCore(direction_F);
+    return shape.FarthestOfCore(direction_F);
   };
-  return {FirstTouchOf(sweep, {farthest_F, hull.box_G().Center()}, 0, 0, until), std::nullopt};
+  return {
+      FirstTouchOf(sweep, {farthest_F, shape.box_G().Center()}, shape.core_radius_m(), 0, until),
+      std::nullopt};
 }
 
 FirstTouch TouchBall(const Eigen::Vector3d& center_F, double radius_m, const Sweep& sweep,

@@ -88,6 +88,7 @@ Twist Log(const Pose& displacement) {
   Eigen::Quaterniond q = displacement.rotation;
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double sin_half = q.vec().norm();
+  if (sin_half == 0) return {Eigen::Vector3d::Zero(), displacement.translation};
   const double angle = 2 * std::atan2(sin_half, q.w());
   const bool small = angle < kSmallAngle;
   const Eigen::Vector3d w = (small ? 2.0 + angle * angle / 12.0 : angle / sin_half) * q.vec();

@@ -17,6 +17,7 @@ std::vector<Stay> IntervalSearch::Find(const Question& question) {
   open_.clear();
   stays_at_.assign(roadmap_.size(), {});
   held_.resize(roadmap_.size());
+  taken_.resize(roadmap_.size());
   left_s_.assign(roadmap_.size(), std::nullopt);
   for (const auto& [place, seconds] : question.starts) AddStay(place, seconds, -1, seconds);
   const std::size_t before = checks_.ways_asked();
@@ -73,6 +74,18 @@ double IntervalSearch::LeaveBy(std::size_t place, double arrival_s) {
   return until_s;
 }
 
+double IntervalSearch::FreeFrom(std::size_t place, double arrival_s) {
+  for (const auto& [from_s, until_s] : held_[place]) {
+    if (from_s <= arrival_s && arrival_s <= until_s) return arrival_s;
+  }
+  for (const auto& [from_s, until_s] : taken_[place]) {
+    if (from_s <= arrival_s && arrival_s < until_s) return until_s;
+  }
+  const double free_s = checks_.FreeFrom(roadmap_.Place(place), arrival_s);
+  if (free_s > arrival_s) taken_[place].emplace_back(arrival_s, free_s);
+  return free_s;
+}
+
 bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, double departed_s) {
   const double leave_by_s = LeaveBy(place, arrival_s);
   const int stay = static_cast<int>(stays_.size());
@@ -82,9 +95,11 @@ bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, do
       question_->arrived(place, arrival_s)) {
     return true;
   }
-  for (const Roadmap::Neighbor& to : roadmap_.Near(place)) Propose(stay, to, arrival_s);
+  const auto& near = roadmap_.Near(place);
+  for (const Roadmap::Neighbor& to : near) Propose(stay, to, arrival_s);
   for (const std::size_t goal : question_->goals) {
-    if (goal == place || roadmap_.Joined(place, goal)) continue;
+    const bool proposed = std::ranges::find(near, goal, &Roadmap::Neighbor::place) != near.end();
+    if (goal == place || proposed) continue;
     Propose(stay, {goal, roadmap_.Seconds(place, goal)}, arrival_s);
   }
   return false;
@@ -107,6 +122,10 @@ bool IntervalSearch::Follow(const Candidate& candidate) {
   if (const auto held_until_s = HeldUntil(to.place, arrival_s)) {
     // Nothing is gained but by the next time that the place is free.
     Propose(stay, to, *held_until_s - to.seconds + kSoon_s);
+    return false;
+  }
+  if (const double free_s = FreeFrom(to.place, arrival_s); free_s > arrival_s) {
+    Propose(stay, to, free_s - to.seconds + kSoon_s);
     return false;
   }
   const WayAnswer answer = Ask(from, to.place, depart_s, arrival_s);

@@ -27,7 +27,7 @@ struct Stay {
 // Searches a roadmap that grows between searches, and remembers what was asked. One thread.
 class IntervalSearch {
  public:
-  IntervalSearch(const SpaceTimeStateSpace& space, const Roadmap& roadmap, TimedChecks& checks)
+  IntervalSearch(const SpaceTimeStateSpace& space, Roadmap& roadmap, TimedChecks& checks)
       : space_(space), roadmap_(roadmap), checks_(checks) {}
 
   struct Question {
@@ -62,12 +62,14 @@ class IntervalSearch {
   // Until when the place can be held, if that is known to be reached no later.
   std::optional<double> HeldUntil(std::size_t place, double arrival_s) const;
   double LeaveBy(std::size_t place, double arrival_s);
+  // Not before then it is worth trying to be at the place.
+  double FreeFrom(std::size_t place, double arrival_s);
   // At full speed from the place to the nearest goal.
   double LeftSeconds(std::size_t place);
   const WayAnswer& Ask(std::size_t from, std::size_t to, double depart_s, double arrival_s);
 
   const SpaceTimeStateSpace& space_;
-  const Roadmap& roadmap_;
+  Roadmap& roadmap_;
   TimedChecks& checks_;
 
   // Of the search at hand.
@@ -81,7 +83,8 @@ class IntervalSearch {
   using Way = std::pair<std::size_t, std::size_t>;
   absl::flat_hash_set<Way> never_;
   absl::flat_hash_map<std::pair<Way, std::int64_t>, WayAnswer> answers_;
-  std::vector<std::vector<std::pair<double, double>>> held_;  // by place
+  // By place: from when to when it can be held, and when something is in the way there.
+  std::vector<std::vector<std::pair<double, double>>> held_, taken_;
 };
 
 }  // namespace clearway

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace clearway {
+namespace {
+
+bool Holds(const std::vector<Roadmap::Neighbor>& neighbors, std::size_t place) {
+  return std::ranges::find(neighbors, place, &Roadmap::Neighbor::place) != neighbors.end();
+}
+
+}  // namespace
 
 Roadmap::Roadmap(const SpaceTimeStateSpace& space) : space_(space) {}
 
@@ -11,33 +18,44 @@ Roadmap::~Roadmap() {
   for (const OnePlace& place : places_) space_.space()->freeState(place.part);
 }
 
-// By looking at all: the search takes far longer. Half as many as PRM* needs to be optimal in the
-// limit (Karaman and Frazzoli, 2011): among much that moves, more and shorter ways serve better.
 std::size_t Roadmap::Add(const ompl::base::State* part) {
-  const std::size_t added = places_.size();
-  std::vector<std::pair<double, std::size_t>> others;
-  others.reserve(added);
-  for (std::size_t i = 0; i < added; ++i) {
-    others.emplace_back(space_.MinSeconds(part, places_[i].part), i);
-  }
-  const double dimension = space_.space()->getDimension();
-  const double wanted = 0.5 * M_E * (1 + 1 / dimension) * std::log(static_cast<double>(added) + 2);
-  const auto count = std::min(added, static_cast<std::size_t>(std::ceil(wanted)));
-  std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count),
-                    others.end());
-  places_.push_back({space_.space()->cloneState(part), {}});
-  for (std::size_t i = 0; i < count; ++i) Join(added, others[i].second);
-  return added;
+  places_.push_back({space_.space()->cloneState(part), {}, {}, 0, {}});
+  return places_.size() - 1;
 }
 
-bool Roadmap::Joined(std::size_t a, std::size_t b) const {
-  return std::ranges::find(places_[a].near, b, &Neighbor::place) != places_[a].near.end();
+// As many as PRM* needs to be optimal in the limit (Karaman and Frazzoli, 2011).
+std::size_t Roadmap::NearestCount() const {
+  const double dimension = space_.space()->getDimension();
+  const auto all = static_cast<double>(places_.size());
+  return static_cast<std::size_t>(std::ceil(M_E * (1 + 1 / dimension) * std::log(all + 1)));
+}
+
+// By looking at all that came since: the search takes far longer.
+const std::vector<Roadmap::Neighbor>& Roadmap::Near(std::size_t place) {
+  OnePlace& here = places_[place];
+  if (here.looked_at == places_.size()) return here.near;
+  for (std::size_t i = here.looked_at; i < places_.size(); ++i) {
+    if (i != place) here.nearest.push_back({i, Seconds(place, i)});
+  }
+  here.looked_at = places_.size();
+  const std::size_t count = std::min(here.nearest.size(), NearestCount());
+  std::ranges::partial_sort(here.nearest, here.nearest.begin() + static_cast<std::ptrdiff_t>(count),
+                            {}, &Neighbor::seconds);
+  here.nearest.resize(count);
+  here.near = here.nearest;
+  for (const Neighbor& to : here.joined) {
+    if (!Holds(here.near, to.place)) here.near.push_back(to);
+  }
+  return here.near;
 }
 
 void Roadmap::Join(std::size_t a, std::size_t b) {
-  if (a == b || Joined(a, b)) return;
-  places_[a].near.push_back({b, Seconds(a, b)});
-  places_[b].near.push_back({a, Seconds(b, a)});
+  if (a == b || Holds(places_[a].joined, b)) return;
+  places_[a].joined.push_back({b, Seconds(a, b)});
+  places_[b].joined.push_back({a, Seconds(b, a)});
+  places_[a].looked_at = places_[b].looked_at = 0;
+  places_[a].nearest.clear();
+  places_[b].nearest.clear();
 }
 
 }  // namespace clearway

@@ -11,7 +11,7 @@
 namespace clearway {
 
 // Random places of a space (without time), each with its nearest ones by the time to get there at
-// full speed. Owns its states. One thread.
+// full speed, which are looked for when they are asked for. Owns its states. One thread.
 class Roadmap {
  public:
   explicit Roadmap(const SpaceTimeStateSpace& space);
@@ -19,9 +19,9 @@ class Roadmap {
   Roadmap(const Roadmap&) = delete;
   Roadmap& operator=(const Roadmap&) = delete;
 
-  // Copies the place and joins it to its nearest ones, both ways.
+  // Copies the place.
   std::size_t Add(const ompl::base::State* part);
-  // Joins two places, both ways, if they are not joined yet.
+  // Makes the two each other's neighbours, however far they are.
   void Join(std::size_t a, std::size_t b);
 
   // A place, and how long the way there takes.
@@ -32,8 +32,9 @@ class Roadmap {
 
   std::size_t size() const { return places_.size(); }
   const ompl::base::State* Place(std::size_t place) const { return places_[place].part; }
-  const std::vector<Neighbor>& Near(std::size_t place) const { return places_[place].near; }
-  bool Joined(std::size_t a, std::size_t b) const;
+  // Its nearest ones, by what it takes to go there, and those joined to it. Valid until the roadmap
+  // changes.
+  const std::vector<Neighbor>& Near(std::size_t place);
   double Seconds(std::size_t from, std::size_t to) const {
     return space_.MinSeconds(places_[from].part, places_[to].part);
   }
@@ -41,8 +42,12 @@ class Roadmap {
  private:
   struct OnePlace {
     ompl::base::State* part;
-    std::vector<Neighbor> near;
+    std::vector<Neighbor> joined;
+    std::vector<Neighbor> nearest;  // of those that there were
+    std::size_t looked_at = 0;      // so many
+    std::vector<Neighbor> near;     // both
   };
+  std::size_t NearestCount() const;
 
   const SpaceTimeStateSpace& space_;
   std::vector<OnePlace> places_;

@@ -10,7 +10,7 @@ namespace {
 namespace ob = ompl::base;
 
 // From when on, and how finely, it is looked for when something that passes is gone again.
-constexpr double kLookAgain_s = 0.2, kGoneWithin_s = 0.06;
+constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
 // Without proofs: how finely the end of a wait is looked for.
 constexpr double kWaitWithin_s = 0.02;
 
@@ -59,6 +59,12 @@ double TimedChecks::WaitByHalves(double from_s, double until_s) {
   return free_s;
 }
 
+double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
+  if (query_ == nullptr) return at_s;
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
+  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s);
+}
+
 WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part, double begin_s,
                            double end_s) {
   ++ways_asked_;
@@ -83,21 +89,22 @@ WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part,
   return {false, false, FreeAgain(begin_s + after_s) - after_s};
 }
 
+bool TimedChecks::IsFreeAt(double seconds) {
+  return query_->CheckPlace(first_, {seconds})[0].status == SpaceStatus::kFree;
+}
+
 // Something is in the way at that place and time: when is it gone? Looked for ever farther ahead.
 // At the space's latest, if it is not seen to go before.
 double TimedChecks::FreeAgain(double blocked_s) {
-  const auto free_at = [&](double seconds) {
-    return query_->CheckPlace(first_, {seconds})[0].status == SpaceStatus::kFree;
-  };
   double there_s = blocked_s, gone_s = blocked_s;
   for (double ahead_s = kLookAgain_s; gone_s == blocked_s; ahead_s *= 2) {
     const double look_s = blocked_s + ahead_s;
     if (look_s >= latest_s_) return latest_s_;
-    (free_at(look_s) ? gone_s : there_s) = look_s;
+    (IsFreeAt(look_s) ? gone_s : there_s) = look_s;
   }
   while (gone_s - there_s > kGoneWithin_s) {
     const double middle_s = 0.5 * (there_s + gone_s);
-    (free_at(middle_s) ? gone_s : there_s) = middle_s;
+    (IsFreeAt(middle_s) ? gone_s : there_s) = middle_s;
   }
   return gone_s;
 }

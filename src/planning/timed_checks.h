@@ -28,6 +28,9 @@ class TimedChecks {
   // From `from_s` on the robot can wait at the place up to the time returned; `from_s` or less if
   // it cannot even be there.
   double FreeUntil(const ompl::base::State* part, double from_s, double until_s);
+  // Not before then it is worth trying to be at the place: at `at_s`, if nothing is known to be in
+  // the way there.
+  double FreeFrom(const ompl::base::State* part, double at_s);
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
                 double begin_s, double end_s);
   std::size_t ways_asked() const { return ways_asked_; }
@@ -35,7 +38,8 @@ class TimedChecks {
  private:
   bool IsFree(double begin_s, double end_s);  // from first_ to second_
   double WaitByHalves(double from_s, double until_s);
-  double FreeAgain(double blocked_s);  // what is at first_
+  bool IsFreeAt(double seconds);       // what is at first_
+  double FreeAgain(double blocked_s);  // the same
 
   ompl::base::SpaceInformationPtr si_;
   const SpaceTimeStateSpace* space_;

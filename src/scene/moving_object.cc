@@ -36,13 +36,15 @@ std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
   return points;
 }
 
-std::shared_ptr<const Solid> SolidWith(Mesh hull) {
+// `shape`: none if it is the hull itself.
+std::shared_ptr<const Solid> SolidWith(Mesh hull, const std::optional<Shape>& shape) {
   auto solid = std::make_shared<Solid>();
   for (const Eigen::Vector3d& vertex : hull.vertices) {
     solid->box_O.Extend(vertex);
     solid->radius_m = std::max(solid->radius_m, vertex.norm());
   }
   solid->hull = std::make_shared<const Mesh>(std::move(hull));
+  solid->shape = shape.value_or(ConvexPolytope{solid->hull});
   return solid;
 }
 
@@ -74,10 +76,12 @@ std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Tim
 std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O) {
   Mesh hull = ConvexHullOf(HullCandidates(map_O));
   for (Eigen::Vector3d& vertex : hull.vertices) vertex *= map_O.grid().resolution_m();
-  return SolidWith(std::move(hull));
+  return SolidWith(std::move(hull), std::nullopt);
 }
 
-std::shared_ptr<const Solid> SolidOf(const Shape& shape) { return SolidWith(HullAround(shape)); }
+std::shared_ptr<const Solid> SolidOf(const Shape& shape) {
+  return SolidWith(HullAround(shape), shape);
+}
 
 MovingObject WithMap(MovingObject object, VoxelMap map_O) {
   object.solid = SolidOf(map_O);

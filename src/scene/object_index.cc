@@ -79,11 +79,13 @@ ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horiz
   ball.way.reserve(object.future.size() + 1);
   const StampedPose* before = &object.history.back();
   for (const StampedPose& after : object.future) {
-    ball.way.push_back(
-        {before->stamp, before->T_W_O.translation, StraysBy(before->T_W_O, after.T_W_O)});
+    const Eigen::Vector3d way_W = after.T_W_O.translation - before->T_W_O.translation;
+    const Eigen::Vector3d velocity_W = way_W / ToSeconds(after.stamp - before->stamp);
+    ball.way.push_back({before->stamp, before->T_W_O.translation,
+                        StraysBy(before->T_W_O, after.T_W_O), velocity_W, velocity_W.norm()});
     before = &after;
   }
-  ball.way.push_back({newest.stamp, newest.T_W_O.translation, 0});
+  ball.way.push_back({newest.stamp, newest.T_W_O.translation, 0, Eigen::Vector3d::Zero(), 0});
   return ball;
 }
 
@@ -107,12 +109,10 @@ std::size_t ObjectIndex::Ball::WaypointAt(Time t) const {
 ObjectIndex::Ball::Reach ObjectIndex::Ball::DuringWay(std::size_t i, Time from, Time until,
                                                       double inflation_mps) const {
   const Waypoint &before = way[i], &after = way[i + 1];
-  const double all_s = ToSeconds(after.stamp - before.stamp);
-  const double begins = ToSeconds(std::max(from, before.stamp) - before.stamp) / all_s;
-  const double ends = ToSeconds(std::min(until, after.stamp) - before.stamp) / all_s;
-  const Eigen::Vector3d way_W = after.origin_W - before.origin_W;
-  return {before.origin_W + 0.5 * (begins + ends) * way_W,
-          radius_m + before.strays_m + 0.5 * (ends - begins) * way_W.norm() +
+  const double begins_s = ToSeconds(std::max(from, before.stamp) - before.stamp);
+  const double ends_s = ToSeconds(std::min(until, after.stamp) - before.stamp);
+  return {before.origin_W + 0.5 * (begins_s + ends_s) * before.velocity_W,
+          radius_m + before.strays_m + 0.5 * (ends_s - begins_s) * before.speed_mps +
               ToSeconds(until - t_k) * inflation_mps};
 }
 

@@ -38,8 +38,8 @@ SpaceStatus ObjectSays(const SceneAtTime::Placed& placed, SolidMode mode,
     fused_log_odds = fused_log_odds.value_or(0.0) + Dequantized(*value);
     if (object.map_O.model().Occupied(*value)) return SpaceStatus::kOccupied;
   }
-  if (object.FillsHull(mode) && object.solid->box_O.Contains(p_O) &&
-      Contains(ConvexPolytope{object.solid->hull}, p_O)) {
+  if (object.FillsSolid(mode) && object.solid->box_O.Contains(p_O) &&
+      Contains(object.solid->shape, p_O)) {
     return SpaceStatus::kOccupied;
   }
   return SpaceStatus::kFree;

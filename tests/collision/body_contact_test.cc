@@ -55,7 +55,7 @@ TEST(FindSeparation, BoundsTheDistanceOnBothSides) {
     if (!geometry.convex()) continue;
     const PlacedShape shape(geometry, random.AnyPose(kAround));
     const Obstacle obstacle(random);
-    const double exact_m = shape.DistanceToHull(obstacle.hull, obstacle.T_F_H, kFar);
+    const double exact_m = shape.DistanceToShape(obstacle.hull, obstacle.T_F_H, kFar);
     const Separation found = FindSeparation(
         [&](const Eigen::Vector3d& direction) { return shape.FarthestOfCore(direction); }, obstacle,
         random.Point(kAround), 0, [](const Separation&) { return false; });
@@ -84,7 +84,7 @@ TEST(BodyContact, MeetsIfTheDistanceIsWithinTheMargin) {
     const PlacedShape shape(geometry, random.AnyPose(kAround));
     const Obstacle obstacle(random);
     const double margin_m = i % 3 == 0 ? 0 : random.Uniform(0, 0.3);
-    const double exact_m = shape.DistanceToHull(obstacle.hull, obstacle.T_F_H, kFar);
+    const double exact_m = shape.DistanceToShape(obstacle.hull, obstacle.T_F_H, kFar);
     const auto meets = Meets(shape, {obstacle, obstacle.center_F()}, margin_m);
     if (!meets) {
       ++unsure;
@@ -112,7 +112,8 @@ TEST(BodyContact, NothingIsTouchedBeforeTheFirstTouch) {
     const double share = FirstTouchOf(sweep, {obstacle, obstacle.center_F()}, 0, 0, until);
     const auto distance_m = [&](double at) {
       const Pose T_F_G_there{T_F_G.rotation, T_F_G.translation + at * sweep.way_F};
-      return PlacedShape(geometry, T_F_G_there).DistanceToHull(obstacle.hull, obstacle.T_F_H, kFar);
+      return PlacedShape(geometry, T_F_G_there)
+          .DistanceToShape(obstacle.hull, obstacle.T_F_H, kFar);
     };
     const double last = std::min(share, until);
     for (int step = 0; step < 50 && last > 0; ++step) {

@@ -163,7 +163,7 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
     obstacles.push_back(obstacle);
   } else if (scene->params.solid == SolidMode::kConvexHull || object.given()) {
     obstacle.radius_m = object.solid->radius_m;
-    obstacle.geometry = HullSizes(*object.solid);
+    obstacle.geometry = SolidSizes(*object.solid);
     obstacles.push_back(obstacle);
   } else {
     object.map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {

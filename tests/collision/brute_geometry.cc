@@ -38,6 +38,18 @@ FclGeometry Surface(const Mesh& mesh) {
 
 }  // namespace
 
+// In every size, by this.
+Shape Grown(Shape shape, double by_m) {
+  if (auto* sphere = std::get_if<Sphere>(&shape)) sphere->radius_m += by_m;
+  if (auto* box = std::get_if<Box>(&shape)) box->size_m.array() += by_m;
+  if (auto* capsule = std::get_if<Capsule>(&shape)) capsule->radius_m += by_m;
+  if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    cylinder->radius_m += by_m;
+    cylinder->length_m += by_m;
+  }
+  return shape;
+}
+
 FclGeometry GeometryOf(const Shape& shape) {
   if (const auto* s = std::get_if<Sphere>(&shape))
     return std::make_shared<fcl::Sphered>(s->radius_m);
@@ -75,10 +87,14 @@ Sizes BallSizes(double radius_m) {
   return {grown(-kUnsure_m), grown(0), grown(kUnsure_m)};
 }
 
-Sizes HullSizes(const Solid& solid) {
-  const double relative = kUnsure_m / (0.5 * solid.box_O.Size().minCoeff());
-  const auto grown = [&](double by) { return Convex(*solid.hull, solid.box_O.Center(), 1 + by); };
-  return {grown(-relative), grown(0), grown(relative)};
+Sizes SolidSizes(const Solid& solid) {
+  if (std::holds_alternative<ConvexPolytope>(solid.shape)) {
+    const double relative = kUnsure_m / (0.5 * solid.box_O.Size().minCoeff());
+    const auto grown = [&](double by) { return Convex(*solid.hull, solid.box_O.Center(), 1 + by); };
+    return {grown(-relative), grown(0), grown(relative)};
+  }
+  const auto grown = [&](double by) { return GeometryOf(Grown(solid.shape, by)); };
+  return {grown(-kUnsure_m), grown(0), grown(kUnsure_m)};
 }
 
 double Distance(const RobotBody& body, const FclGeometry& obstacle,

@@ -17,7 +17,7 @@ struct Sizes {
 };
 Sizes BoxSizes(const Eigen::Vector3d& size);
 Sizes BallSizes(double radius_m);
-Sizes HullSizes(const Solid& solid);
+Sizes SolidSizes(const Solid& solid);
 
 struct Obstacle {
   ObjectId id = kStaticLabel;

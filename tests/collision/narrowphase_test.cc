@@ -110,13 +110,13 @@ TEST(NarrowphaseTest, ACubeIsACubeInEveryForm) {
     const Eigen::Vector3d center = random.Point(kAround);
     const PlacedShape reference(box, T_F_G);
     const double to_box_m = reference.DistanceTo(voxel, kFar);
-    const double to_hull_m = reference.DistanceToHull(obstacle, T_F_H, kFar);
+    const double to_hull_m = reference.DistanceToShape(obstacle, T_F_H, kFar);
     const double to_ball_m = reference.DistanceToBall(center, 0.2, kFar);
     apart += to_box_m > 0;
     for (const ShapeGeometry* other : {&hull, &mesh}) {
       const PlacedShape dut(*other, T_F_G);
       EXPECT_NEAR(dut.DistanceTo(voxel, kFar), to_box_m, 1e-8);
-      EXPECT_NEAR(dut.DistanceToHull(obstacle, T_F_H, kFar), to_hull_m, 1e-8);
+      EXPECT_NEAR(dut.DistanceToShape(obstacle, T_F_H, kFar), to_hull_m, 1e-8);
       EXPECT_NEAR(dut.DistanceToBall(center, 0.2, kFar), to_ball_m, 1e-8);
     }
   }
@@ -140,7 +140,8 @@ TEST(NarrowphaseTest, DistancesAreExactUpToTheLimitAndAboveItBeyond) {
       }
     };
     check(dut.DistanceTo(voxel, kFar), dut.DistanceTo(voxel, limit_m));
-    check(dut.DistanceToHull(obstacle, T_F_H, kFar), dut.DistanceToHull(obstacle, T_F_H, limit_m));
+    check(dut.DistanceToShape(obstacle, T_F_H, kFar),
+          dut.DistanceToShape(obstacle, T_F_H, limit_m));
     const Eigen::Vector3d center = T_F_H.translation;
     check(dut.DistanceToBall(center, 0.1, kFar), dut.DistanceToBall(center, 0.1, limit_m));
   }

@@ -53,7 +53,7 @@ PointOccupancy BruteForce(const SceneSnapshot& scene, const Eigen::Vector3d& p_W
     } else {
       const Eigen::Vector3d p_O = Inverse(predicted.T_W_O) * p_W;
       const bool in_hull =
-          object->FillsHull(scene.params.solid) && NearHull(*object->solid->hull, p_O, 0);
+          object->FillsSolid(scene.params.solid) && NearHull(*object->solid->hull, p_O, 0);
       if (look(object->map_O, p_O) == VoxelState::kOccupied || in_hull)
         says = SpaceStatus::kOccupied;
     }

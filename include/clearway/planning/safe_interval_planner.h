@@ -66,7 +66,7 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   void AddSolution();
 
   std::unique_ptr<Impl> impl_;
-  unsigned int first_batch_ = 100;
+  unsigned int first_batch_ = 200;
 };
 
 }  // namespace clearway

@@ -29,15 +29,17 @@ Twist VelocityBetween(const StampedPose& before, const StampedPose& after);
 // The poses after `t_k`.
 std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Time t_k);
 
-// The part of space that an object fills, in O: the convex hull of its occupied voxels, or a hull
-// around the shape of a given object. Immutable.
+// The part of space that an object fills, in O: the convex hull of its occupied voxels, or the
+// shape of a given object. Immutable.
 struct Solid {
-  std::shared_ptr<const Mesh> hull;  // never null; empty if no voxel is occupied
+  Shape shape;                       // convex
+  std::shared_ptr<const Mesh> hull;  // around the shape (see HullAround); never null, empty if no
+                                     // voxel is occupied
   Aabb box_O;                        // around the occupied voxels or the hull
   double radius_m = 0;               // of the smallest ball about O's origin that holds the hull
 };
 std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O);
-std::shared_ptr<const Solid> SolidOf(const Shape& shape);  // see HullAround
+std::shared_ptr<const Solid> SolidOf(const Shape& shape);
 
 // A moving object as of one scene version. Immutable once published; any thread may read it.
 struct MovingObject {
@@ -71,8 +73,8 @@ struct MovingObject {
 
   Time t_k() const { return history.back().stamp; }
   bool given() const { return given_shape != nullptr; }
-  // Whether its hull counts as occupied: its voxels alone may (SolidMode), if it has any.
-  bool FillsHull(SolidMode mode) const { return given() || mode == SolidMode::kConvexHull; }
+  // Whether its solid's shape counts as occupied: its voxels alone may (SolidMode), if it has any.
+  bool FillsSolid(SolidMode mode) const { return given() || mode == SolidMode::kConvexHull; }
 
   // No motion and no future known, or none but rounding.
   bool AtRest() const;

@@ -57,7 +57,9 @@ class ObjectIndex {
   struct Waypoint {
     Time stamp;
     Eigen::Vector3d origin_W;
-    double strays_m;
+    double strays_m;             // up to the next one, as what follows
+    Eigen::Vector3d velocity_W;  // of the ball's centre
+    double speed_mps;
   };
 
   // A ball that holds an object at any time from t_k on: its centre goes straight from one waypoint
