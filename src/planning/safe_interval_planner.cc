@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "clearway/planning/space_time_problem.h"
 #include "planning/interval_search.h"
 #include "planning/roadmap.h"
 #include "planning/timed_checks.h"
@@ -45,6 +46,7 @@ struct SafeIntervalPlanner::Impl {
   // Whether an earlier arrival was found.
   bool Search(double weight, const ob::Goal& goal, const ob::PlannerTerminationCondition& until);
   void JoinAlongPath();
+  bool GoalsAreTaken() const;
   std::shared_ptr<og::PathGeometric> Path() const;
   double Arrival() const {
     return path.empty() ? std::numeric_limits<double>::infinity() : path.back().arrival_s;
@@ -134,6 +136,17 @@ void SafeIntervalPlanner::Impl::JoinAlongPath() {
   }
 }
 
+// Whenever one looks.
+bool SafeIntervalPlanner::Impl::GoalsAreTaken() const {
+  constexpr int kLooks = 100;
+  for (int look = 0; look <= kLooks; ++look) {
+    for (const std::size_t goal : goals) {
+      if (si->isValid(At(goal, space.latest_s() * look / kLooks))) return false;
+    }
+  }
+  return true;
+}
+
 std::shared_ptr<og::PathGeometric> SafeIntervalPlanner::Impl::Path() const {
   auto result = std::make_shared<og::PathGeometric>(si);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -194,7 +207,13 @@ void SafeIntervalPlanner::AddStarts() {
   }
 }
 
+// A place that may be reached at any time is taken as it is: OMPL would look whether it is free at
+// a random one.
 void SafeIntervalPlanner::AddGoals(const ob::PlannerTerminationCondition& until) {
+  if (const auto* goal = dynamic_cast<const GoalPoseBefore*>(pdef_->getGoal().get())) {
+    if (impl_->goals.empty()) impl_->goals.push_back(impl_->roadmap.Add(goal->goal_part()));
+    return;
+  }
   while (impl_->goals.size() < kMostGoals) {
     const ob::State* goal = impl_->goals.empty() ? pis_.nextGoal(until) : pis_.nextGoal();
     if (goal == nullptr) return;
@@ -229,7 +248,8 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
     }
   }
   if (!impl_->path.empty()) return ob::PlannerStatus::EXACT_SOLUTION;
-  return more ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
+  if (!more || impl_->GoalsAreTaken()) return ob::PlannerStatus::INVALID_GOAL;
+  return ob::PlannerStatus::TIMEOUT;
 }
 
 void SafeIntervalPlanner::AddSolution() {

@@ -20,6 +20,18 @@ constexpr double kRelativeSlack = 1e-6;
 constexpr double kSlackSeconds = 1e-9;
 constexpr double kUnreachableExtents = 1e4;
 
+double OfAxes(const ob::StateSpace& space, const SpeedLimits& limits, const ob::State* from,
+              const ob::State* to) {
+  if (space.getType() != ob::STATE_SPACE_REAL_VECTOR) return 0;
+  const auto& a = *from->as<ob::RealVectorStateSpace::StateType>();
+  const auto& b = *to->as<ob::RealVectorStateSpace::StateType>();
+  double seconds = 0;
+  for (std::size_t i = 0; i < limits.axes_per_s.size(); ++i) {
+    seconds = std::max(seconds, std::abs(b[i] - a[i]) / limits.axes_per_s[i]);
+  }
+  return seconds;
+}
+
 double MinSecondsIn(const ob::StateSpace& space, const SpeedLimits& limits, const ob::State* from,
                     const ob::State* to) {
   if (space.isCompound()) {
@@ -39,7 +51,7 @@ double MinSecondsIn(const ob::StateSpace& space, const SpeedLimits& limits, cons
     case ob::STATE_SPACE_SO3:
       return 2 * distance / limits.rotation_radps;  // OMPL's is the angle between quaternions
     default:
-      return distance / limits.translation_mps;
+      return std::max(distance / limits.translation_mps, OfAxes(space, limits, from, to));
   }
 }
 
@@ -83,7 +95,7 @@ class SpaceTimeProjection : public ob::ProjectionEvaluator {
 
 SpaceTimeStateSpace::SpaceTimeStateSpace(ob::StateSpacePtr space, SpeedLimits limits,
                                          Duration latest, double time_weight)
-    : limits_(limits), focus_latest_s_(ToSeconds(latest)) {
+    : limits_(std::move(limits)), focus_latest_s_(ToSeconds(latest)) {
   setName("SpaceTime" + getName());
   addSubspace(std::move(space), 1 - time_weight);
   auto time = std::make_shared<ob::TimeStateSpace>();

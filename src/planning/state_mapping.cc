@@ -149,12 +149,14 @@ StateMapping StateMapping::R3(const Robot& robot, TimeSource time) {
 }
 
 StateMapping StateMapping::FromKinematics(const Robot& robot, Kinematics kinematics,
-                                          TimeSource time, MotionBound bound) {
+                                          TimeSource time, MotionBound bound,
+                                          DeviationBound deviations) {
   StateMapping mapping(Kind::kOther, robot.links.size(), std::move(kinematics), std::move(bound),
                        time);
   for (const Link& link : robot.links) {
     mapping.reaches_m_.push_back(FarthestCorner({robot.name, {link}}).norm());
   }
+  mapping.deviations_ = std::move(deviations);
   return mapping;
 }
 
@@ -246,6 +248,13 @@ double StateMapping::LegCount(const ob::StateSpace& space, const ob::State* from
 void StateMapping::AppendDeviations(const ob::State* from, const ob::State* to,
                                     std::span<const Pose> T_W_L,
                                     std::vector<double>& deviations_m) const {
+  if (deviations_) {
+    deviations_m.resize(deviations_m.size() + links_);
+    const auto part = [&](const ob::State* state) {
+      return has_time() ? SpaceTimeStateSpace::SpacePart(state) : state;
+    };
+    return deviations_(part(from), part(to), std::span(deviations_m).last(links_));
+  }
   const auto bound_m = kind_ == Kind::kOther ? MotionBoundMetres(from, to) : std::nullopt;
   for (std::size_t l = 0; l < links_; ++l) {
     const Pose &before = T_W_L[l], &after = T_W_L[links_ + l];

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "clearway/base/time.h"
 
@@ -18,6 +19,8 @@ namespace clearway {
 struct SpeedLimits {
   double translation_mps = std::numeric_limits<double>::infinity();
   double rotation_radps = std::numeric_limits<double>::infinity();
+  // Of the single axes of an R^n part, as an arm's joints; empty: none has a limit of its own.
+  std::vector<double> axes_per_s = {};
 };
 
 // The product of an OMPL space (R^n, SE(2), SE(3), or a compound of R^n, SO(2) and SO(3)) and time
@@ -35,8 +38,8 @@ struct SpeedLimits {
 class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
  public:
   // Times run from 0 to `latest`, seconds after whatever epoch the caller chooses (TimeSince).
-  // latest > 0 and limits > 0. The distance weighs a metre (or radian, as `space` does) as `1 -
-  // time_weight` and a second as `time_weight`.
+  // latest > 0 and limits > 0, of as many axes as R^n has. The distance weighs a metre (or radian,
+  // as `space` does) as `1 - time_weight` and a second as `time_weight`.
   SpaceTimeStateSpace(ompl::base::StateSpacePtr space, SpeedLimits limits, Duration latest,
                       double time_weight = 0.5);
 

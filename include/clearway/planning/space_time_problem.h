@@ -35,6 +35,9 @@ class GoalPoseBefore : public ompl::base::GoalSampleableRegion {
   void sampleGoal(ompl::base::State* state) const override;
   unsigned int maxSampleCount() const override;
 
+  // A state of the space without time.
+  const ompl::base::State* goal_part() const { return goal_part_; }
+
  private:
   const SpaceTimeStateSpace* space_time_;
   ompl::base::State* goal_part_;  // owned

@@ -52,6 +52,10 @@ class StateMapping {
   // two states of the space.
   using MotionBound =
       std::function<double(const ompl::base::State* from, const ompl::base::State* to)>;
+  // Writes for each link an upper bound, in metres, of how far its points stray meanwhile from
+  // where they are if the link goes straight and turns evenly.
+  using DeviationBound = std::function<void(
+      const ompl::base::State* from, const ompl::base::State* to, std::span<double> deviations_m)>;
 
   // Rigid robots: every link takes the pose of the state. SE(2) states are (x, y) in metres and yaw
   // in radians about W's z; in R^2 the robot keeps `yaw_rad`. The link frame's height follows from
@@ -62,12 +66,14 @@ class StateMapping {
   static StateMapping Se3(const Robot& robot, TimeSource time);
   static StateMapping R3(const Robot& robot, TimeSource time);
 
-  // Any other space, an arm's R^n for one. Without a bound, edges are cut as
+  // Any other space; for an arm's R^n see arm.h. Without a bound, edges are cut as
   // StateSpace::validSegmentCount says (setLongestValidSegmentFraction), not by metres, and links
-  // are taken to go straight from cut to cut: what is proved then is no more than that. Both
+  // are taken to go straight from cut to cut: what is proved then is no more than that. With a
+  // bound, `deviations` is worth while: else they follow from the bound, and are large. All
   // functions must be callable from any thread.
   static StateMapping FromKinematics(const Robot& robot, Kinematics kinematics, TimeSource time,
-                                     MotionBound bound = nullptr);
+                                     MotionBound bound = nullptr,
+                                     DeviationBound deviations = nullptr);
 
   // INVALID_ARGUMENT if states of `space` are not those that the mapping reads, `robot` has another
   // number of links, or the ground has heights but no slope.
@@ -101,6 +107,7 @@ class StateMapping {
   std::size_t links_;
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const MotionBound> bound_;  // null if there is none
+  DeviationBound deviations_;                 // likewise
   TimeSource time_;
   std::optional<double> slope_ = 0;  // of the ground; none if it had to be stated
   std::vector<double> reaches_m_;    // of the links of another space: from the origin

@@ -78,6 +78,10 @@ class StateQuery {
   // outside the space's bounds is kOutOfBounds if it is free up to there.
   MotionProof ProveMotion(const ompl::base::State* from, const ompl::base::State* to) const;
 
+  // What is proved: one motion of the links, in legs of leg_m where they go on curves.
+  absl::StatusOr<MotionBatch> MotionOf(const ompl::base::State* from, const ompl::base::State* to,
+                                       double leg_m) const;
+
   const ompl::base::StateSpace& space() const { return *space_; }
   const StateChecker& checker() const { return *checker_; }
   const StateMapping& mapping() const { return mapping_; }
@@ -92,9 +96,6 @@ class StateQuery {
   StateAnswer CheckOne(const ompl::base::State* state, const CheckOptions& options) const;
   std::vector<StateAnswer> Answer(const StateBatch& batch, const CheckOptions& options) const;
   std::vector<StateAnswer> Unresolved(std::size_t size, const absl::Status& why) const;
-  // One motion, in legs of leg_m where its links go on curves.
-  absl::StatusOr<MotionBatch> MotionOf(const ompl::base::State* from, const ompl::base::State* to,
-                                       double leg_m) const;
   MotionProof Prove(MotionBatch motion) const;
   double FractionWithinBounds(const ompl::base::State* from, const ompl::base::State* to) const;
   void CountError(const absl::Status& why) const;

@@ -1,0 +1,156 @@
+#include "clearway/collision/plan_task.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/scene/frame.h"
+#include "collision/validation.h"
+
+namespace clearway {
+namespace {
+
+constexpr double kMost_m = 100'000, kMostReach_m = 100, kMostSpeed = 1'000, kMostAngle_rad = 1'000;
+constexpr std::size_t kMostJoints = 32;
+constexpr std::chrono::hours kLongest{1};
+
+absl::Status Invalid(const std::string& field, const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
+}
+
+absl::Status CheckWithin(const std::string& field, double value, double least, double most) {
+  if (value >= least && value <= most) return absl::OkStatus();  // so that NaN fails
+  return Invalid(field, absl::StrCat("is ", value, "; it must lie between ", least, " and ", most));
+}
+
+absl::Status CheckLimit(const std::string& field, double value) {
+  if (value > 0 && value <= kMostSpeed) return absl::OkStatus();
+  return Invalid(field,
+                 absl::StrCat("is ", value, "; it must be above 0, and at most ", kMostSpeed));
+}
+
+absl::Status CheckJoint(const std::string& field, const Joint& joint) {
+  if (auto status = ValidatePose(field + ".parent_from_joint", joint.T_P_J, kMostReach_m);
+      !status.ok()) {
+    return status;
+  }
+  if (!joint.axis_J.allFinite() || !(joint.axis_J.norm() > 1e-6)) {
+    return Invalid(field + ".axis", "has no direction");
+  }
+  if (auto status = CheckWithin(field + ".min_rad", joint.min_rad, -kMostAngle_rad, kMostAngle_rad);
+      !status.ok()) {
+    return status;
+  }
+  if (auto status = CheckWithin(field + ".max_rad", joint.max_rad, joint.min_rad, kMostAngle_rad);
+      !status.ok()) {
+    return status;
+  }
+  return CheckLimit(field + ".max_radps", joint.max_radps);
+}
+
+absl::Status CheckSpace(const ConfigurationSpace& space, const Robot& robot) {
+  if (const auto* plane = std::get_if<PlaneSpace>(&space)) {
+    for (const auto& [field, value] : {std::pair{"plane.yaw_rad", plane->yaw_rad},
+                                       {"plane.ground_z_m", plane->ground_z_m},
+                                       {"plane.clearance_m", plane->clearance_m}}) {
+      if (auto status = CheckWithin(field, value, -kMost_m, kMost_m); !status.ok()) return status;
+    }
+  }
+  const auto* arm = std::get_if<ArmSpace>(&space);
+  if (arm == nullptr) return absl::OkStatus();
+  if (arm->joints.empty() || arm->joints.size() > kMostJoints) {
+    return Invalid("arm.joints",
+                   absl::StrCat("are ", arm->joints.size(), "; the limit is ", kMostJoints));
+  }
+  if (arm->joints.size() + 1 != robot.links.size()) {
+    return Invalid("arm.joints", absl::StrCat("are ", arm->joints.size(), "; the robot has ",
+                                              robot.links.size(), " links, one more is needed"));
+  }
+  for (std::size_t i = 0; i < arm->joints.size(); ++i) {
+    const std::string field = absl::StrCat("arm.joints[", i, "]");
+    if (auto status = CheckJoint(field, arm->joints[i]); !status.ok()) return status;
+  }
+  return ValidatePose("arm.world_from_base", arm->T_W_B, kMost_m);
+}
+
+bool Turns(const ConfigurationSpace& space) {
+  const auto* plane = std::get_if<PlaneSpace>(&space);
+  const auto* flight = std::get_if<FlightSpace>(&space);
+  return (plane != nullptr && plane->turns) || (flight != nullptr && flight->turns);
+}
+
+// Of the axes that configurations have: x and y, and of those that fly z.
+absl::Status CheckArea(const PlanTask& task) {
+  if (std::holds_alternative<ArmSpace>(task.space)) return absl::OkStatus();
+  const int axes = std::holds_alternative<PlaneSpace>(task.space) ? 2 : 3;
+  for (int axis = 0; axis < axes; ++axis) {
+    const double low = task.area_W.min[axis], high = task.area_W.max[axis];
+    if (low >= -kMost_m && low < high && high <= kMost_m) continue;
+    return Invalid(absl::StrCat("area.", std::string(1, static_cast<char>('x' + axis))),
+                   absl::StrCat("is from ", low, " to ", high,
+                                "; the first must be below the second, both within ", kMost_m));
+  }
+  if (auto status = CheckLimit("max_speed_mps", task.max_speed_mps); !status.ok()) return status;
+  return Turns(task.space) ? CheckLimit("max_turn_radps", task.max_turn_radps) : absl::OkStatus();
+}
+
+absl::Status CheckArmConfiguration(const std::string& field, const std::vector<double>& values,
+                                   const ArmSpace& arm) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (auto status = CheckWithin(absl::StrCat(field, "[", i, "]"), values[i],
+                                  arm.joints[i].min_rad, arm.joints[i].max_rad);
+        !status.ok()) {
+      return status;
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckConfiguration(const std::string& field, const std::vector<double>& values,
+                                const PlanTask& task) {
+  const std::size_t size = DimensionOf(task.space);
+  if (values.size() != size) {
+    return Invalid(field, absl::StrCat("has ", values.size(), " numbers; it must have ", size));
+  }
+  if (const auto* arm = std::get_if<ArmSpace>(&task.space)) {
+    return CheckArmConfiguration(field, values, *arm);
+  }
+  const std::size_t axes = std::holds_alternative<PlaneSpace>(task.space) ? 2 : 3;
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool place = i < axes;
+    if (auto status = CheckWithin(absl::StrCat(field, "[", i, "]"), values[i],
+                                  place ? task.area_W.min[i] : -kMostAngle_rad,
+                                  place ? task.area_W.max[i] : kMostAngle_rad);
+        !status.ok()) {
+      return status;
+    }
+  }
+  if (size != 7) return absl::OkStatus();
+  const double norm = Eigen::Vector4d(values[3], values[4], values[5], values[6]).norm();
+  if (std::abs(norm - 1) < 1e-6) return absl::OkStatus();
+  return Invalid(field, absl::StrCat("has a quaternion of length ", norm, "; it must be 1"));
+}
+
+}  // namespace
+
+std::size_t DimensionOf(const ConfigurationSpace& space) {
+  if (const auto* plane = std::get_if<PlaneSpace>(&space)) return plane->turns ? 3 : 2;
+  if (const auto* flight = std::get_if<FlightSpace>(&space)) return flight->turns ? 7 : 3;
+  return std::get<ArmSpace>(space).joints.size();
+}
+
+absl::Status Validate(const PlanTask& task, const Robot& robot) {
+  if (auto status = CheckSpace(task.space, robot); !status.ok()) return status;
+  if (auto status = CheckArea(task); !status.ok()) return status;
+  if (auto status = CheckConfiguration("start", task.start, task); !status.ok()) return status;
+  if (auto status = CheckConfiguration("goal", task.goal, task); !status.ok()) return status;
+  if (auto status = ValidateTime("start_ns", task.start_time); !status.ok()) return status;
+  if (task.time_limit <= Duration::zero() || task.time_limit > kLongest) {
+    return Invalid("time_limit_s", absl::StrCat("is ", ToSeconds(task.time_limit),
+                                                "; it must be above 0, and at most 3600"));
+  }
+  if (task.options.world_at) return Invalid("world_at_ns", "is not for plans");
+  return Validate(task.options, robot);
+}
+
+}  // namespace clearway

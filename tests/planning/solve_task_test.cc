@@ -1,0 +1,245 @@
+// Planning problems as data, solved in scenes of given objects; plans are judged by the state
+// checker at many times, and where objects go by hand.
+#include "clearway/planning/solve_task.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clearway/collision/scene_checker.h"
+#include "collision/test_world.h"
+
+namespace clearway {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr auto kBudget = milliseconds(300);
+const auto kGoOn = [] { return false; };
+
+Twist Going(double x_mps, double y_mps) { return {Eigen::Vector3d::Zero(), {x_mps, y_mps, 0}}; }
+
+// A disc of 0.3 m in a place of 10 m, from left to right.
+PlanTask AcrossThePlace() {
+  PlanTask task;
+  task.space = PlaneSpace{.turns = false};
+  task.area_W = {{-5, -5, 0}, {5, 5, 0}};
+  task.max_speed_mps = 1;
+  task.start = {-4, 0};
+  task.goal = {4, 0};
+  task.start_time = TestTime(0);
+  task.time_limit = seconds(30);
+  task.options.check.unknown = UnknownPolicy::kFree;
+  return task;
+}
+
+Robot Disc() { return Robot::SingleShape("disc", Cylinder{0.3, 1}); }
+
+struct Solved {
+  absl::StatusOr<PlanOutcome> outcome;
+  std::vector<Plan> plans;
+};
+
+Solved SolveIn(const ScenePtr& scene, const Robot& robot, const PlanTask& task,
+               Duration budget = kBudget) {
+  const auto checker = std::make_shared<SceneChecker>(scene, robot);
+  std::vector<Plan> plans;
+  auto outcome = Solve(
+      task, checker, budget, [&](const Plan& p) { plans.push_back(p); }, kGoOn);
+  return {std::move(outcome), std::move(plans)};
+}
+
+// The plan's motion is proved by a new checker, its ends are the task's, it keeps the speed limit,
+// and later plans arrive earlier.
+void ExpectGood(const Solved& solved, const ScenePtr& scene, const Robot& robot,
+                const PlanTask& task) {
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  ASSERT_EQ(solved.outcome->status, PlanStatus::kFound);
+  ASSERT_FALSE(solved.plans.empty());
+  EXPECT_EQ(solved.outcome->version, scene->version);
+  const SceneChecker checker(scene, robot);
+  for (std::size_t p = 0; p < solved.plans.size(); ++p) {
+    const Plan& plan = solved.plans[p];
+    ASSERT_EQ(plan.times.size(), plan.configurations.size());
+    EXPECT_EQ(plan.times.front(), task.start_time);
+    EXPECT_EQ(plan.configurations.front(), task.start);
+    for (std::size_t i = 0; i < task.goal.size(); ++i) {
+      EXPECT_NEAR(plan.configurations.back()[i], task.goal[i], 1e-5);
+    }
+    EXPECT_LE(plan.times.back(), task.start_time + task.time_limit);
+    EXPECT_EQ(plan.motion.times.front(), plan.times.front());
+    EXPECT_EQ(plan.motion.times.back(), plan.times.back());
+    const auto proof = checker.CheckMotions(plan.motion, task.options);
+    ASSERT_TRUE(proof.ok()) << proof.status();
+    EXPECT_EQ(proof->answers[0].status, SpaceStatus::kFree);
+    if (p == 0) continue;
+    EXPECT_LT(plan.times.back(), solved.plans[p - 1].times.back());
+  }
+}
+
+TEST(SolveTask, GoesStraightWhereNothingIs) {
+  const ScenePtr scene = TestWorld().Scene();
+  const PlanTask task = AcrossThePlace();
+  const Solved solved = SolveIn(scene, Disc(), task);
+  ExpectGood(solved, scene, Disc(), task);
+  EXPECT_NEAR(ToSeconds(solved.plans.back().times.back() - task.start_time), 8, 1e-3);
+}
+
+TEST(SolveTask, WaitsForADoorThatOpens) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4.6, 2}}, Pose::Translation(0, -2.7, 0));
+  world.Given(2, Box{{0.2, 4.6, 2}}, Pose::Translation(0, 2.7, 0));
+  // The gap of 0.8 m is shut by a door until it has slid away, at 10 s.
+  world.Given(
+      3, Box{{0.1, 1.2, 2}}, Pose::Translation(0, 0, 0), {},
+      {{TestTime(9), Pose::Translation(0, 0, 0)}, {TestTime(10), Pose::Translation(0, 2, 0)}});
+  const ScenePtr scene = world.Scene();
+  const PlanTask task = AcrossThePlace();
+  const Solved solved = SolveIn(scene, Disc(), task);
+  ExpectGood(solved, scene, Disc(), task);
+  const double arrival_s = ToSeconds(solved.plans.back().times.back() - task.start_time);
+  EXPECT_GT(arrival_s, 12);
+  EXPECT_LT(arrival_s, 15);
+}
+
+TEST(SolveTask, TurnsALongRobotThroughAGap) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4.5, 2}}, Pose::Translation(0, -2.75, 0));
+  world.Given(2, Box{{0.2, 4.5, 2}}, Pose::Translation(0, 2.75, 0));
+  const ScenePtr scene = world.Scene();
+  const Robot robot = Robot::SingleShape("long", Box{{1.6, 0.4, 1}});
+  PlanTask task = AcrossThePlace();
+  task.space = PlaneSpace{};
+  task.max_turn_radps = 1;
+  task.start = {-3, 0, M_PI / 2};
+  task.goal = {3, 0, M_PI / 2};
+  const Solved solved = SolveIn(scene, robot, task, seconds(1));
+  ExpectGood(solved, scene, robot, task);
+}
+
+TEST(SolveTask, FliesOverAWall) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 20, 4}}, Pose::Translation(0, 0, 0));
+  world.Given(2, Sphere{0.5}, Pose::Translation(0, -3, 2.6), Going(0, 0.5));
+  const ScenePtr scene = world.Scene();
+  const Robot robot = Robot::SingleShape("drone", Box{{0.4, 0.4, 0.2}});
+  for (const bool turns : {false, true}) {
+    PlanTask task = AcrossThePlace();
+    task.space = FlightSpace{turns};
+    task.area_W = {{-5, -5, 0}, {5, 5, 4}};
+    task.max_turn_radps = 1;
+    task.start = {-4, 0, 1};
+    task.goal = {4, 0, 1};
+    for (auto* ends : {&task.start, &task.goal}) {
+      if (turns) ends->insert(ends->end(), {0, 0, 0, 1});
+    }
+    const Solved solved = SolveIn(scene, robot, task, seconds(1));
+    ExpectGood(solved, scene, robot, task);
+  }
+}
+
+TEST(SolveTask, AnArmReachesPastAPost) {
+  Robot robot{"arm", {}};
+  PlanTask task = AcrossThePlace();
+  ArmSpace arm;
+  for (int i = 0; i < 4; ++i) {
+    robot.links.push_back({"link" + std::to_string(i),
+                           {{Box{{0.5, 0.08, 0.08}}, Pose::Translation(i == 0 ? 0 : 0.25, 0, 0)}}});
+    if (i == 0) continue;
+    arm.joints.push_back({Pose::Translation(i == 1 ? 0 : 0.5, 0, i == 1 ? 0.2 : 0),
+                          Eigen::Vector3d::UnitZ(), -2.5, 2.5, 1});
+  }
+  task.space = arm;
+  task.start = {-1, 0, 0};
+  task.goal = {1, 0, 0};
+  TestWorld world;
+  world.Given(1, Cylinder{0.1, 1}, Pose::Translation(1.2, 0, 0));
+  const ScenePtr scene = world.Scene();
+  const Solved solved = SolveIn(scene, robot, task, seconds(1));
+  ExpectGood(solved, scene, robot, task);
+}
+
+TEST(SolveTask, SaysWhatIsInTheWayOfStartOrGoal) {
+  TestWorld world;
+  world.Given(7, Cylinder{0.5, 1}, Pose::Translation(4, 0, 0));
+  world.Given(8, Cylinder{0.5, 1}, Pose::Translation(-4, 2, 0), Going(0, 0.1));
+  const ScenePtr scene = world.Scene();
+  PlanTask task = AcrossThePlace();
+  Solved solved = SolveIn(scene, Disc(), task, milliseconds(50));
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(solved.outcome->blocker.object, 7);
+  std::swap(task.start, task.goal);
+  solved = SolveIn(scene, Disc(), task);
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kStartBlocked);
+  EXPECT_EQ(solved.outcome->blocker.object, 7);
+  EXPECT_TRUE(solved.plans.empty());
+}
+
+TEST(SolveTask, EndsInTimeWhereThereIsNoWay) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 30, 2}}, Pose::Translation(0, 0, 0));
+  const auto begin = std::chrono::steady_clock::now();
+  const Solved solved = SolveIn(world.Scene(), Disc(), AcrossThePlace(), milliseconds(100));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(5));
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kNotFound);
+  EXPECT_TRUE(solved.plans.empty());
+}
+
+TEST(SolveTask, EndsWhenItIsCancelled) {
+  const auto checker = std::make_shared<SceneChecker>(TestWorld().Scene(), Disc());
+  int plans = 0;
+  const auto outcome = Solve(
+      AcrossThePlace(), checker, seconds(1000), [&](const Plan&) { ++plans; }, [] { return true; });
+  ASSERT_TRUE(outcome.ok()) << outcome.status();
+  EXPECT_EQ(outcome->status, PlanStatus::kNotFound);
+  EXPECT_EQ(plans, 0);
+}
+
+TEST(SolveTask, BadTasksAreRefusedByName) {
+  const auto message = [](auto&& spoil) {
+    PlanTask task = AcrossThePlace();
+    spoil(task);
+    const Solved solved = SolveIn(TestWorld().Scene(), Disc(), task);
+    EXPECT_TRUE(solved.plans.empty());
+    return std::string(solved.outcome.status().message());
+  };
+  const auto expect = [&](const char* field, auto&& spoil) {
+    EXPECT_EQ(message(spoil).rfind(field, 0), 0u) << field << ": " << message(spoil);
+  };
+  expect("area.x", [](PlanTask& t) { t.area_W.min.x() = NAN; });
+  expect("area.y", [](PlanTask& t) { t.area_W.max.y() = -5; });
+  expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = 0; });
+  expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = NAN; });
+  expect("max_turn_radps", [](PlanTask& t) {
+    t.space = PlaneSpace{};
+    t.start.push_back(0);
+    t.goal.push_back(0);
+  });
+  expect("start has", [](PlanTask& t) { t.start = {1}; });
+  expect("start[0]", [](PlanTask& t) { t.start[0] = NAN; });
+  expect("goal[1]", [](PlanTask& t) { t.goal[1] = 6; });
+  expect("time_limit_s", [](PlanTask& t) { t.time_limit = Duration::zero(); });
+  expect("time_limit_s", [](PlanTask& t) { t.time_limit = seconds(4000); });
+  expect("time_limit_s is 5", [](PlanTask& t) { t.time_limit = seconds(5); });  // too far away
+  expect("start_ns", [](PlanTask& t) { t.start_time = TimeFromNanoseconds(INT64_MIN); });
+  expect("arm.joints", [](PlanTask& t) { t.space = ArmSpace{}; });
+  expect("padding_m", [](PlanTask& t) { t.options.check.padding_m = -1; });
+  expect("contact_resolution_m", [](PlanTask& t) { t.options.contact_resolution_m = 0; });
+}
+
+TEST(SolveTask, AStartInTheScenesPastIsRefused) {
+  TestWorld world;
+  SceneSnapshot scene = *world.Scene();
+  scene.stamp = TestTime(3);
+  const Solved solved =
+      SolveIn(std::make_shared<const SceneSnapshot>(scene), Disc(), AcrossThePlace());
+  EXPECT_EQ(solved.outcome.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(solved.outcome.status().message().rfind("start_ns", 0), 0u);
+}
+
+}  // namespace
+}  // namespace clearway
