@@ -33,6 +33,7 @@ struct ServerCore {
 
   std::atomic<bool> draining = false;
   std::atomic<std::uint64_t> calls = 0, follow_streams = 0, push_streams = 0;
+  std::atomic<std::uint64_t> plans = 0, watch_streams = 0;
 };
 
 // Counts someone in for as long as it lives, unless there are too many already. One thread.

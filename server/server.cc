@@ -107,6 +107,7 @@ struct Server::Impl {
   MapHandlers map{core};
   ObjectHandlers object{core};
   OccupancyHandlers occupancy{core};
+  PlanHandlers plan{core};
   InfoHandlers info{core};
   std::unique_ptr<grpc::Server> server;
   std::string address;
@@ -132,7 +133,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   builder.AddListeningPort(config.listen, *credentials, &port);
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{
            &impl->check, &impl->follow, &impl->ingest, &impl->lease, &impl->map, &impl->object,
-           &impl->occupancy, &impl->info}) {
+           &impl->occupancy, &impl->plan, &impl->info}) {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;

@@ -1,4 +1,5 @@
 #include "server/handler.h"
+#include "server/motion_question.h"
 #include "server/services.h"
 #include "wire/check_wire.h"
 #include "wire/motion_wire.h"
@@ -54,24 +55,14 @@ grpc::Status CheckHandlers::CheckMotions(grpc::ServerContext* context,
                                          v1::CheckMotionsResponse* response) {
   return Handle(core_, "CheckMotions", *request, [&]() -> absl::Status {
     const Gone gone = GoneOf(context);
-    absl::StatusOr<std::shared_ptr<const PreparedRobot>> prepared =
-        core_.robots.Find(request->robot_id());
-    if (!prepared.ok()) return prepared.status();
-    const Robot& robot = (*prepared)->robot();
-    const ServerLimits& limits = core_.config.limits;
-    absl::StatusOr<MotionOptions> options = ReadMotionOptions(*request, limits);
-    if (!options.ok()) return options.status();
-    if (absl::Status status = Validate(options->check, robot); !status.ok()) {
-      return WithFieldPrefix("options.", status);
-    }
-    if (absl::Status status = Validate(*options, robot); !status.ok()) return status;
-    absl::StatusOr<MotionBatch> motions = ReadMotions(*request, robot.links.size(), limits);
-    if (!motions.ok()) return motions.status();
+    const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(*request, core_);
+    if (!question.ok()) return question.status();
     absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), gone);
     if (!scene.ok()) return scene.status();
     auto checker = core_.robots.CheckerFor(request->robot_id(), *scene);
     if (!checker.ok()) return checker.status();
-    absl::StatusOr<MotionReply> reply = (*checker)->CheckMotions(*motions, *options, gone);
+    absl::StatusOr<MotionReply> reply =
+        (*checker)->CheckMotions(question->motions, question->options, gone);
     if (!reply.ok()) return reply.status();
     Write(*reply, response);
     return absl::OkStatus();

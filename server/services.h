@@ -9,6 +9,7 @@
 #include "clearway/v1/map_service.grpc.pb.h"
 #include "clearway/v1/object_service.grpc.pb.h"
 #include "clearway/v1/occupancy_service.grpc.pb.h"
+#include "clearway/v1/plan_service.grpc.pb.h"
 #include "clearway/v1/server_service.grpc.pb.h"
 #include "server/core.h"
 
@@ -24,6 +25,8 @@ class CheckHandlers final : public v1::CheckService::Service {
                            v1::CheckStatesResponse* response) override;
   grpc::Status CheckMotions(grpc::ServerContext* context, const v1::CheckMotionsRequest* request,
                             v1::CheckMotionsResponse* response) override;
+  grpc::Status WatchMotions(grpc::ServerContext* context, const v1::WatchMotionsRequest* request,
+                            grpc::ServerWriter<v1::WatchMotionsResponse>* writer) override;
 
  private:
   ServerCore& core_;
@@ -119,6 +122,16 @@ class OccupancyHandlers final : public v1::OccupancyService::Service {
                                  v1::GetSliceOccupancyResponse* response) override;
   grpc::Status CastRays(grpc::ServerContext* context, const v1::CastRaysRequest* request,
                         v1::CastRaysResponse* response) override;
+
+ private:
+  ServerCore& core_;
+};
+
+class PlanHandlers final : public v1::PlanService::Service {
+ public:
+  explicit PlanHandlers(ServerCore& core) : core_(core) {}
+  grpc::Status Plan(grpc::ServerContext* context, const v1::PlanRequest* request,
+                    grpc::ServerWriter<v1::PlanResponse>* writer) override;
 
  private:
   ServerCore& core_;

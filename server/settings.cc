@@ -189,6 +189,9 @@ std::vector<Setting> LimitSettings() {
       CLEARWAY_LIMIT(max_prior_bytes, "size of a prior map's file"),
       CLEARWAY_LIMIT(max_boxes, "boxes, contacts or ids in one request"),
       CLEARWAY_LIMIT(max_calls, "calls at once"),
+      CLEARWAY_LIMIT(max_plans, "plans at once"),
+      CLEARWAY_LIMIT(max_planning_s, "longest time to think of a plan"),
+      CLEARWAY_LIMIT(max_watch_streams, "watches of motions at once"),
 #undef CLEARWAY_LIMIT
   };
 }

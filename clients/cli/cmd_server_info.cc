@@ -41,7 +41,10 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_version_wait_s", l.max_version_wait_s},
           {"max_prior_bytes", l.max_prior_bytes},
           {"max_boxes", l.max_boxes},
-          {"max_calls", l.max_calls}};
+          {"max_calls", l.max_calls},
+          {"max_plans", l.max_plans},
+          {"max_planning_s", l.max_planning_s},
+          {"max_watch_streams", l.max_watch_streams}};
 }
 
 Json ParamsJson(const SceneParams& p) {

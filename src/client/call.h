@@ -18,6 +18,7 @@
 #include "clearway/v1/map_service.grpc.pb.h"
 #include "clearway/v1/object_service.grpc.pb.h"
 #include "clearway/v1/occupancy_service.grpc.pb.h"
+#include "clearway/v1/plan_service.grpc.pb.h"
 #include "clearway/v1/server_service.grpc.pb.h"
 
 namespace clearway {
@@ -34,6 +35,7 @@ struct Connection::Impl {
   std::unique_ptr<v1::MapService::Stub> map;
   std::unique_ptr<v1::ObjectService::Stub> object;
   std::unique_ptr<v1::OccupancyService::Stub> occupancy;
+  std::unique_ptr<v1::PlanService::Stub> plan;
   std::unique_ptr<v1::ServerService::Stub> info;
 };
 

@@ -74,6 +74,7 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   impl->map = v1::MapService::NewStub(impl->channel);
   impl->object = v1::ObjectService::NewStub(impl->channel);
   impl->occupancy = v1::OccupancyService::NewStub(impl->channel);
+  impl->plan = v1::PlanService::NewStub(impl->channel);
   impl->info = v1::ServerService::NewStub(impl->channel);
 
   // A server that has just been started takes a moment to listen.

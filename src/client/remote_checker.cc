@@ -7,21 +7,12 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/client/scene_client.h"
 #include "client/call.h"
+#include "client/registered_robot.h"
 #include "wire/check_wire.h"
 #include "wire/motion_wire.h"
-#include "wire/robot_wire.h"
 
 namespace clearway {
 namespace {
-
-absl::StatusOr<std::string> Register(const Connection& connection, const v1::Robot& robot) {
-  v1::RegisterRobotRequest request;
-  *request.mutable_robot() = robot;
-  auto response = Call(connection.options(), *connection.impl().check,
-                       &v1::CheckService::Stub::RegisterRobot, request);
-  if (!response.ok()) return response.status();
-  return response->robot_id();
-}
 
 // How many states go into one request: the server's limit, and half of a message.
 std::size_t StatesPerRequest(const ServerLimits& limits, std::size_t links) {
@@ -34,10 +25,9 @@ std::size_t StatesPerRequest(const ServerLimits& limits, std::size_t links) {
 }  // namespace
 
 struct RemoteChecker::Impl {
-  std::shared_ptr<Connection> connection;
-  Robot robot;
-  v1::Robot robot_proto;
-  std::string robot_id;
+  explicit Impl(RegisteredRobot r) : registered(std::move(r)) {}
+
+  RegisteredRobot registered;
   LeaseGrant lease;
 
   std::mutex mutex;
@@ -46,7 +36,7 @@ struct RemoteChecker::Impl {
   std::thread renewer;
 
   void Renew() {
-    const SceneClient client(connection);
+    const SceneClient client(registered.connection());
     std::unique_lock lock(mutex);
     // A third of the time to live leaves two more attempts.
     while (!stop_changed.wait_for(lock, lease.ttl / 3, [&] { return stop; })) {
@@ -61,9 +51,9 @@ struct RemoteChecker::Impl {
                                        std::size_t begin, std::size_t end) {
     v1::CheckStatesRequest request;
     request.mutable_selector()->set_lease_id(lease.id);
-    request.set_robot_id(robot_id);
+    request.set_robot_id(registered.id());
     Write(options, request.mutable_options());
-    WriteStates(states, robot.links.size(), begin, end, &request);
+    WriteStates(states, registered.robot().links.size(), begin, end, &request);
     auto response = Ask(&v1::CheckService::Stub::CheckStates, request);
     if (!response.ok()) return response.status();
     return ReadCheckReply(*response, end - begin, options);
@@ -74,27 +64,22 @@ struct RemoteChecker::Impl {
                                         std::size_t begin, std::size_t end, std::size_t knot) {
     v1::CheckMotionsRequest request;
     request.mutable_selector()->set_lease_id(lease.id);
-    request.set_robot_id(robot_id);
+    request.set_robot_id(registered.id());
     Write(options, &request);
-    WriteMotions(motions, robot.links.size(), begin, end, knot, &request);
+    WriteMotions(motions, registered.robot().links.size(), begin, end, knot, &request);
     auto response = Ask(&v1::CheckService::Stub::CheckMotions, request);
     if (!response.ok()) return response.status();
     return ReadMotionReply(*response, end - begin);
   }
 
-  // Of a server that may have forgotten the robot.
   template <class Request, class Response>
   absl::StatusOr<Response> Ask(grpc::Status (v1::CheckService::Stub::*method)(grpc::ClientContext*,
                                                                               const Request&,
                                                                               Response*),
                                const Request& request) {
-    const auto call = [&] {
-      return Call(connection->options(), *connection->impl().check, method, request);
-    };
-    auto response = call();
-    if (!absl::IsNotFound(response.status())) return response;
-    if (auto again = Register(*connection, robot_proto); !again.ok()) return again.status();
-    return call();
+    const Connection& connection = *registered.connection();
+    return registered.Ask(
+        [&] { return Call(connection.options(), *connection.impl().check, method, request); });
   }
 };
 
@@ -102,13 +87,9 @@ RemoteChecker::RemoteChecker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)
 
 absl::StatusOr<std::unique_ptr<RemoteChecker>> RemoteChecker::Pin(
     std::shared_ptr<Connection> connection, Robot robot, const RemoteCheckerOptions& options) {
-  auto impl = std::make_unique<Impl>();
-  impl->connection = connection;
-  impl->robot = std::move(robot);
-  Write(impl->robot, &impl->robot_proto);
-  auto robot_id = Register(*connection, impl->robot_proto);
-  if (!robot_id.ok()) return robot_id.status();
-  impl->robot_id = *std::move(robot_id);
+  auto registered = RegisteredRobot::At(connection, std::move(robot));
+  if (!registered.ok()) return registered.status();
+  auto impl = std::make_unique<Impl>(*std::move(registered));
   auto lease = SceneClient(connection).AcquireLease(options.lease_ttl, {options.min_version, ""});
   if (!lease.ok()) return lease.status();
   impl->lease = *std::move(lease);
@@ -124,16 +105,16 @@ RemoteChecker::~RemoteChecker() {
   impl_->stop_changed.notify_all();
   impl_->renewer.join();
   // If the server is gone, so is the lease: nothing to report.
-  (void)SceneClient(impl_->connection).ReleaseLease(impl_->lease.id);
+  (void)SceneClient(impl_->registered.connection()).ReleaseLease(impl_->lease.id);
 }
 
 std::size_t RemoteChecker::states_per_request() const {
-  return StatesPerRequest(impl_->connection->server().limits, impl_->robot.links.size());
+  return StatesPerRequest(impl_->registered.connection()->server().limits, robot().links.size());
 }
 
 absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
                                                 const CheckOptions& options) const {
-  const std::size_t links = impl_->robot.links.size();
+  const std::size_t links = robot().links.size();
   if (states.T_W_L.size() != states.times.size() * links) {
     return absl::InvalidArgumentError(absl::StrCat("T_W_L: has ", states.T_W_L.size(),
                                                    " poses for ", states.times.size(),
@@ -178,7 +159,7 @@ absl::StatusOr<MotionReply> RemoteChecker::CheckMotions(const MotionBatch& motio
   return reply;
 }
 
-const Robot& RemoteChecker::robot() const { return impl_->robot; }
+const Robot& RemoteChecker::robot() const { return impl_->registered.robot(); }
 std::uint64_t RemoteChecker::version() const { return impl_->lease.version; }
 Time RemoteChecker::stamp() const { return impl_->lease.stamp; }
 const std::string& RemoteChecker::lease_id() const { return impl_->lease.id; }

@@ -27,6 +27,9 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_prior_bytes(limits.max_prior_bytes);
   proto->set_max_boxes(limits.max_boxes);
   proto->set_max_calls(limits.max_calls);
+  proto->set_max_plans(limits.max_plans);
+  proto->set_max_planning_s(limits.max_planning_s);
+  proto->set_max_watch_streams(limits.max_watch_streams);
 }
 
 ServerLimits ReadLimits(const v1::Limits& proto) {
@@ -52,6 +55,9 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_prior_bytes = proto.max_prior_bytes();
   limits.max_boxes = proto.max_boxes();
   limits.max_calls = proto.max_calls();
+  limits.max_plans = proto.max_plans();
+  limits.max_planning_s = proto.max_planning_s();
+  limits.max_watch_streams = proto.max_watch_streams();
   return limits;
 }
 

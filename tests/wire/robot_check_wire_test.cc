@@ -217,12 +217,13 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
         &l.max_points_per_query, &l.max_robots, &l.max_links_per_robot, &l.max_triangles_per_robot,
         &l.max_voxels_per_robot, &l.max_leases, &l.max_follow_streams, &l.max_push_streams,
         &l.max_frames_in_flight, &l.max_queued_frames, &l.max_remembered_answers,
-        &l.max_prior_bytes, &l.max_boxes, &l.max_calls}) {
+        &l.max_prior_bytes, &l.max_boxes, &l.max_calls, &l.max_plans, &l.max_watch_streams}) {
     *limit = next++;
   }
   l.max_coordinate_m = 1.5;
   l.max_lease_ttl_s = 2.5;
   l.max_version_wait_s = 3.5;
+  l.max_planning_s = 4.5;
   v1::GetServerInfoResponse proto;
   Write(info, &proto);
   const auto dut = ReadServerInfo(proto);

@@ -32,6 +32,9 @@ struct ServerLimits {
   std::uint64_t max_prior_bytes = 1 << 30;
   std::uint64_t max_boxes = 10'000;  // keep-out boxes, declared-free boxes, contacts, ignored ids
   std::uint64_t max_calls = 512;     // at once
+  std::uint64_t max_plans = 4;       // at once
+  double max_planning_s = 60;
+  std::uint64_t max_watch_streams = 64;
   bool operator==(const ServerLimits&) const = default;
 };
 

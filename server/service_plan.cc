@@ -1,0 +1,58 @@
+#include "clearway/planning/solve_task.h"
+#include "server/handler.h"
+#include "server/services.h"
+#include "wire/plan_wire.h"
+
+namespace clearway {
+namespace {
+
+absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone& gone,
+                   grpc::ServerWriter<v1::PlanResponse>& writer) {
+  const ServerLimits& limits = core.config.limits;
+  const auto robot = core.robots.Find(request.robot_id());
+  if (!robot.ok()) return robot.status();
+  const auto task = ReadPlanTask(request, limits);
+  if (!task.ok()) return task.status();
+  if (auto status = Validate(task->options.check, (*robot)->robot()); !status.ok()) {
+    return WithFieldPrefix("options.", status);
+  }
+  const auto budget = ReadBudget(request, limits);
+  if (!budget.ok()) return budget.status();
+  const auto scene = core.SceneFor(request.selector(), gone);
+  if (!scene.ok()) return scene.status();
+  const auto checker = core.robots.CheckerFor(request.robot_id(), *scene);
+  if (!checker.ok()) return checker.status();
+  bool lost = false;  // a stream that takes no more messages has no reader
+  const auto send = [&](v1::PlanResponse& response) {
+    Write(VersionOf(**scene), response.mutable_scene());
+    response.set_horizon_ns((*scene)->params.horizon.count());
+    lost = lost || !writer.Write(response);
+  };
+  const auto outcome = Solve(
+      *task, *checker, *budget,
+      [&](const Plan& plan) {
+        v1::PlanResponse response;
+        Write(plan, request, (*robot)->robot().links.size(), response.mutable_path());
+        send(response);
+      },
+      [&] { return lost || core.draining || gone(); });
+  if (!outcome.ok()) return outcome.status();
+  v1::PlanResponse last;
+  Write(*outcome, &last);
+  send(last);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+grpc::Status PlanHandlers::Plan(grpc::ServerContext* context, const v1::PlanRequest* request,
+                                grpc::ServerWriter<v1::PlanResponse>* writer) {
+  return Handle(core_, "Plan", *request, [&]() -> absl::Status {
+    const std::uint64_t limit = core_.config.limits.max_plans;
+    const Slot slot(core_.plans, limit);
+    if (!slot.ok()) return TooMany("plans", limit);
+    return Serve(core_, *request, GoneOf(context), *writer);
+  });
+}
+
+}  // namespace clearway
