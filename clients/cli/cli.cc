@@ -25,6 +25,7 @@ void AddAllCommands(Cli& cli) {
   AddObjects(cli);
   AddOccupancy(cli);
   AddCheck(cli);
+  AddPlan(cli);
   AddExport(cli);
   AddLoadPrior(cli);
   AddReset(cli);

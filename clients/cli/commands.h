@@ -15,6 +15,7 @@ void AddStatus(Cli& cli);
 void AddObjects(Cli& cli);
 void AddOccupancy(Cli& cli);
 void AddCheck(Cli& cli);
+void AddPlan(Cli& cli);
 void AddExport(Cli& cli);
 void AddLoadPrior(Cli& cli);
 void AddReset(Cli& cli);

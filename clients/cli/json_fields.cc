@@ -68,6 +68,32 @@ absl::StatusOr<double> JsonFields::Positive(const char* field) const {
   return number;
 }
 
+absl::StatusOr<double> JsonFields::Number(const char* field) const {
+  if (!Has(field)) return Error(field, "missing");
+  const Json& value = value_->at(field);
+  if (!value.is_number() || !std::isfinite(value.get<double>())) {
+    return Error(field, "expected a number, not " + Shown(value));
+  }
+  return value.get<double>();
+}
+
+absl::StatusOr<double> JsonFields::NumberOr(const char* field, double otherwise) const {
+  return Has(field) ? Number(field) : otherwise;
+}
+
+absl::StatusOr<bool> JsonFields::FlagOr(const char* field, bool otherwise) const {
+  if (!Has(field)) return otherwise;
+  const Json& value = value_->at(field);
+  if (!value.is_boolean()) return Error(field, "expected true or false, not " + Shown(value));
+  return value.get<bool>();
+}
+
+absl::StatusOr<std::vector<double>> JsonFields::NumberList(const char* field) const {
+  const auto list = List(field);
+  if (!list.ok()) return list.status();
+  return Numbers(field, (*list)->size());
+}
+
 absl::StatusOr<std::vector<double>> JsonFields::Numbers(const char* field,
                                                         std::size_t count) const {
   if (!Has(field)) return Error(field, "missing");

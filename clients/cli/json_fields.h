@@ -25,6 +25,11 @@ class JsonFields {
 
   absl::StatusOr<std::string> Text(const char* field) const;
   absl::StatusOr<double> Positive(const char* field) const;
+  absl::StatusOr<double> Number(const char* field) const;
+  absl::StatusOr<double> NumberOr(const char* field, double otherwise) const;
+  absl::StatusOr<bool> FlagOr(const char* field, bool otherwise) const;
+  // A list of any length.
+  absl::StatusOr<std::vector<double>> NumberList(const char* field) const;
   absl::StatusOr<Eigen::Vector3d> Vector(const char* field) const;
   absl::StatusOr<std::vector<Eigen::Vector3d>> Vectors(const char* field) const;
   // A list that is not empty.

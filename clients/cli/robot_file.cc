@@ -1,29 +1,15 @@
 #include "cli/robot_file.h"
 
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "absl/strings/str_cat.h"
 #include "cli/json_fields.h"
+#include "cli/json_file.h"
 #include "cli/message.h"
 #include "cli/robot_shape.h"
 
 namespace clearway::cli {
 namespace {
-
-constexpr std::uintmax_t kMaxBytes = 16'000'000;
-
-absl::StatusOr<Json> ParseJson(const std::string& text) {
-  try {
-    return Json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-    const std::string what = error.what();
-    const std::size_t end = what.find("] ");
-    return absl::InvalidArgumentError(end == std::string::npos ? what : what.substr(end + 2));
-  }
-}
 
 absl::StatusOr<Link> ParseLink(const JsonFields& fields, const std::filesystem::path& folder) {
   Link link;
@@ -79,26 +65,17 @@ absl::StatusOr<RobotFile> ParseRobot(const std::filesystem::path& name, const st
 }
 
 absl::StatusOr<RobotFile> LoadRobot(const std::string& file_or_shape) {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(file_or_shape, error);
-  if (error && file_or_shape.find(':') != std::string::npos) {
+  if (!std::filesystem::exists(file_or_shape) && file_or_shape.find(':') != std::string::npos) {
     auto shape = ParseShapeText(file_or_shape);
     if (!shape.ok()) return UsageError(absl::StrCat("--robot: ", shape.status().message()));
     RobotFile file{Robot::SingleShape(file_or_shape, *std::move(shape)), {Pose{}}};
     file.robot.links[0].name = "body";
     return file;
   }
-  std::ifstream stream(file_or_shape, std::ios::binary);
-  if (error || !stream) {
-    return absl::NotFoundError(
-        absl::StrCat(file_or_shape, ": no such robot file (or write a shape, as box:1,0.7,1)"));
-  }
-  if (bytes > kMaxBytes) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat(file_or_shape, ": has ", bytes, " bytes, the limit is ", kMaxBytes));
-  }
-  return ParseRobot(file_or_shape, std::string((std::istreambuf_iterator<char>(stream)),
-                                               std::istreambuf_iterator<char>()));
+  const auto text =
+      ReadTextFile(file_or_shape, "robot file", " (or write a shape, as box:1,0.7,1)");
+  if (!text.ok()) return text.status();
+  return ParseRobot(file_or_shape, *text);
 }
 
 }  // namespace clearway::cli

@@ -76,10 +76,13 @@ class Work {
         goal_(space_) {}
 
   absl::Status SetUp() {
-    WriteConfiguration(task_.space, task_.start, SpaceTimeStateSpace::SpacePart(start_.get()));
-    SpaceTimeStateSpace::SetSeconds(start_.get(), 0);
-    WriteConfiguration(task_.space, task_.goal, SpaceTimeStateSpace::SpacePart(goal_.get()));
-    SpaceTimeStateSpace::SetSeconds(goal_.get(), 0);
+    for (const auto& [values, state] : {std::pair{&task_.start, &start_}, {&task_.goal, &goal_}}) {
+      WriteConfiguration(task_.space, *values, SpaceTimeStateSpace::SpacePart(state->get()));
+      // Angles within a turn, quaternions of length 1 to the last digit: OMPL ends the program if
+      // they are not.
+      space_->enforceBounds(state->get());
+      SpaceTimeStateSpace::SetSeconds(state->get(), 0);
+    }
     if (EarliestArrival_s() > ToSeconds(task_.time_limit)) {
       return absl::OutOfRangeError(absl::StrCat("time_limit_s is ", ToSeconds(task_.time_limit),
                                                 "; at full speed the goal is reached after ",

@@ -93,7 +93,7 @@ void WriteConfiguration(const ConfigurationSpace& space, const std::vector<doubl
                         ob::State* part) {
   if (IsSe2(space)) {
     part->as<Se2State>()->setXY(values[0], values[1]);
-    part->as<Se2State>()->setYaw(std::remainder(values[2], 2 * M_PI));
+    part->as<Se2State>()->setYaw(values[2]);
   } else if (IsSe3(space)) {
     auto& state = *part->as<Se3State>();
     state.setXYZ(values[0], values[1], values[2]);

@@ -13,7 +13,7 @@ namespace clearway {
 std::shared_ptr<SpaceTimeStateSpace> SpaceOf(const PlanTask& task);
 StateMapping MappingOf(const PlanTask& task, const Robot& robot);
 
-// A configuration as a state of the space without time, and back.
+// A configuration as a state of the space without time, whose bounds have to be enforced, and back.
 void WriteConfiguration(const ConfigurationSpace& space, const std::vector<double>& values,
                         ompl::base::State* part);
 std::vector<double> ReadConfiguration(const ConfigurationSpace& space,

@@ -21,7 +21,7 @@ FORBIDDEN = {
     "report": ["planning"],
     "wire": ["planning", "io", "sim", "report"],
     "client": ["planning", "io", "sim", "report"],
-    "server": ["planning", "sim", "report", "client"],
+    "server": ["sim", "report", "client"],
 }
 
 # Private headers that others may include: how functions are compiled is no user's business; the

@@ -139,6 +139,28 @@ TEST(SolveTask, FliesOverAWall) {
   }
 }
 
+// OMPL refuses angles and quaternions that its own spaces do not hold, by ending the program.
+TEST(SolveTask, TurnsAreTakenAsTheyAreGiven) {
+  const ScenePtr scene = TestWorld().Scene();
+  PlanTask task = AcrossThePlace();
+  task.space = PlaneSpace{};
+  task.max_turn_radps = 1;
+  for (const double yaw_rad : {M_PI, -M_PI, 7.0, -100.0}) {
+    task.start = {-4, 0, yaw_rad};
+    task.goal = {4, 0, -yaw_rad};
+    const Solved solved = SolveIn(scene, Disc(), task, milliseconds(20));
+    ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+    EXPECT_EQ(solved.outcome->status, PlanStatus::kFound) << yaw_rad;
+  }
+  task.space = FlightSpace{};
+  task.area_W = {{-5, -5, -5}, {5, 5, 5}};
+  task.start = {-4, 0, 0, 0, 0, 0, 1 - 1e-7};
+  task.goal = {4, 0, 0, 0, 0, 0.7071067, -0.7071068};
+  const Solved solved = SolveIn(scene, Disc(), task, milliseconds(20));
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kFound);
+}
+
 TEST(SolveTask, AnArmReachesPastAPost) {
   Robot robot{"arm", {}};
   PlanTask task = AcrossThePlace();

@@ -1,0 +1,189 @@
+// clearway plan: a way around moving objects, as early as can be.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "clearway/client/remote_planner.h"
+#include "clearway/client/scene_client.h"
+#include "clearway/report/table.h"
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/scenario_file.h"
+#include "cli/server_flags.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr char kExamples[] =
+    "  clearway plan examples/scenarios/sliding_doors.json\n"
+    "  clearway plan task.json --budget 5 --json | jq '.path[] | [.t_s, .configuration]'\n"
+    "  clearway plan task.json --first        the first plan that is found\n"
+    "\n"
+    "The file says what moves from where to where (docs/formats.md, \"Scenarios\"). Objects that "
+    "it\n"
+    "holds are in the server's scene while the plan is made; a file without any plans in the "
+    "scene\n"
+    "as it is. Its times count from the scene's newest stamp.";
+
+struct Flags {
+  ServerFlags server;
+  std::string file;
+  double budget_s = 1;
+  bool first = false;
+  bool json = false;
+};
+
+// Adds objects to a server's scene, and takes them away again.
+class BorrowedObjects {
+ public:
+  explicit BorrowedObjects(SceneClient client) : client_(std::move(client)) {}
+  ~BorrowedObjects() {
+    if (!ids_.empty()) (void)client_.RemoveObjects(ids_);  // if the server is gone, so are they
+  }
+  BorrowedObjects(const BorrowedObjects&) = delete;
+  BorrowedObjects& operator=(const BorrowedObjects&) = delete;
+
+  // The version that has them.
+  absl::StatusOr<std::uint64_t> Add(const std::vector<GivenObject>& objects) {
+    if (objects.empty()) return 0;
+    const auto added = client_.AddObjects(objects);
+    if (!added.ok()) return added.status();
+    for (const GivenObject& object : objects) ids_.push_back(object.id);
+    return added->version;
+  }
+
+ private:
+  SceneClient client_;
+  std::vector<ObjectId> ids_;
+};
+
+struct Found {
+  Plan plan;
+  double after_s;  // of thinking
+};
+
+double ArrivalOf(const Plan& plan, const PlanTask& task) {
+  return ToSeconds(plan.times.back() - task.start_time);
+}
+
+std::string WhatBlocks(const StateAnswer& blocker) {
+  if (blocker.object != kStaticLabel) return absl::StrCat("object ", blocker.object);
+  switch (blocker.status) {
+    case SpaceStatus::kOutOfBounds:
+      return "the scene's bounds";
+    case SpaceStatus::kUnknownSpace:
+      return "unknown space";
+    default:
+      return "the static map";
+  }
+}
+
+absl::Status StatusOf(const PlanOutcome& outcome, const Flags& flags) {
+  switch (outcome.status) {
+    case PlanStatus::kFound:
+      return absl::OkStatus();
+    case PlanStatus::kStartBlocked:
+      return absl::FailedPreconditionError(
+          absl::StrCat("no plan: the start is blocked by ", WhatBlocks(outcome.blocker)));
+    case PlanStatus::kGoalBlocked:
+      return absl::FailedPreconditionError(
+          absl::StrCat("no plan: the goal is never free, first of ", "all blocked by ",
+                       WhatBlocks(outcome.blocker)));
+    default:
+      return absl::DeadlineExceededError(absl::StrCat("no plan found within ", flags.budget_s,
+                                                      " s (--budget); there may be none"));
+  }
+}
+
+std::string TextOf(const std::vector<double>& configuration) {
+  std::string text;
+  for (const double value : configuration) {
+    absl::StrAppend(&text, text.empty() ? "" : "  ", absl::StrFormat("%.3f", value));
+  }
+  return text;
+}
+
+void PrintText(std::ostream& out, const Plan& plan, const PlanTask& task) {
+  Table table({"after s", "configuration", ""});
+  for (std::size_t i = 0; i < plan.times.size(); ++i) {
+    const bool waits =
+        i + 1 < plan.times.size() && plan.configurations[i] == plan.configurations[i + 1];
+    table.AddRow({absl::StrFormat("%.3f", ToSeconds(plan.times[i] - task.start_time)),
+                  TextOf(plan.configurations[i]), waits ? "waits" : ""});
+  }
+  out << table.ToString();
+}
+
+void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOutcome& outcome,
+               const PlanTask& task) {
+  Json json = ToJson(Versioned{outcome.version, outcome.stamp});
+  json["found"] = !plans.empty();
+  json["plans"] = Json::array();
+  for (const Found& found : plans) {
+    json["plans"].push_back(
+        {{"planning_s", found.after_s}, {"arrival_s", ArrivalOf(found.plan, task)}});
+  }
+  json["path"] = Json::array();
+  for (std::size_t i = 0; !plans.empty() && i < plans.back().plan.times.size(); ++i) {
+    const Plan& plan = plans.back().plan;
+    json["path"].push_back({{"t_s", ToSeconds(plan.times[i] - task.start_time)},
+                            {"stamp_ns", ToNanoseconds(plan.times[i])},
+                            {"configuration", plan.configurations[i]}});
+  }
+  Print(out, json);
+}
+
+absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  auto loaded = LoadScenario(flags.file);
+  if (!loaded.ok()) return loaded.status();
+  const auto connection = Connect(flags.server);
+  if (!connection.ok()) return connection.status();
+  const SceneClient client(*connection);
+  const auto status = client.GetStatus();
+  if (!status.ok()) return status.status();
+  const Scenario scenario = Later(*std::move(loaded), status->stamp - Time());
+  BorrowedObjects borrowed(client);
+  const auto version = borrowed.Add(scenario.objects);
+  if (!version.ok()) return version.status();
+  const auto planner = RemotePlanner::For(*connection, scenario.robot);
+  if (!planner.ok()) return planner.status();
+  std::vector<Found> plans;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto found = [&](const Plan& plan) {
+    const double after_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    plans.push_back({plan, after_s});
+    if (!flags.json) {
+      terminal.out << absl::StrFormat("%.3f s: arrives after %.3f s\n", after_s,
+                                      ArrivalOf(plan, scenario.task));
+    }
+    return !flags.first;
+  };
+  const auto outcome =
+      (*planner)->Plan(scenario.task, FromSeconds(flags.budget_s), found, {*version, ""});
+  if (!outcome.ok()) return outcome.status();
+  if (flags.json) {
+    PrintJson(terminal.out, plans, *outcome, scenario.task);
+  } else if (!plans.empty()) {
+    PrintText(terminal.out, plans.back().plan, scenario.task);
+  }
+  return StatusOf(*outcome, flags);
+}
+
+}  // namespace
+
+void AddPlan(Cli& cli) {
+  auto flags = std::make_shared<Flags>();
+  CLI::App* command = AddCommand(cli, "plan", "Plan a way around moving objects", kExamples,
+                                 [flags, &cli] { return Run(*flags, cli.terminal); });
+  AddServerFlags(command, &flags->server);
+  command->add_option("file", flags->file, "what to plan, a scenario file")->required();
+  command->add_option("--budget", flags->budget_s, "seconds to think (1)")
+      ->check(Between(0.001, 3600));
+  command->add_flag("--first", flags->first, "end with the first plan");
+  command->add_flag("--json", flags->json, "print JSON");
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,143 @@
+#include "cli/scenario_file.h"
+
+#include "absl/strings/str_cat.h"
+#include "cli/check_flags.h"
+#include "cli/json_fields.h"
+#include "cli/json_file.h"
+#include "cli/message.h"
+#include "cli/robot_file.h"
+#include "cli/scenario_objects.h"
+#include "cli/scenario_space.h"
+
+namespace clearway::cli {
+namespace {
+
+// The robot, in short, in a file of its own or in place; a body's links share one frame.
+absl::StatusOr<Robot> ParseRobotField(const JsonFields& fields, const Json& value, bool arm,
+                                      const std::filesystem::path& folder) {
+  if (!value.contains("robot")) return fields.Error("robot", "missing");
+  const Json& field = value.at("robot");
+  auto file = field.is_string() ? LoadRobot(field.get<std::string>().find(':') == std::string::npos
+                                                ? (folder / field.get<std::string>()).string()
+                                                : field.get<std::string>())
+                                : ParseRobot(folder / fields.PathOf("robot"), field.dump());
+  if (!file.ok()) return file.status();
+  for (std::size_t l = 0; l < file->robot.links.size(); ++l) {
+    if (arm && !(file->T_R_L[l] == Pose{})) {
+      return fields.Error(absl::StrCat("robot.links[", l, "].pose"),
+                          "is not for arms: joints place their links");
+    }
+    for (LinkShape& part : file->robot.links[l].shapes) part.T_L_G = file->T_R_L[l] * part.T_L_G;
+  }
+  return std::move(file->robot);
+}
+
+absl::Status ParseChecks(const JsonFields& fields, CheckOptions& options) {
+  if (fields.Has("unknown")) {
+    const auto text = fields.Text("unknown");
+    if (!text.ok()) return text.status();
+    const auto unknown = ParseUnknown(*text);
+    if (!unknown.ok()) return fields.Error("unknown", std::string(unknown.status().message()));
+    options.unknown = unknown->policy;
+    options.max_unknown_fraction = unknown->max_fraction;
+  }
+  for (const auto& [name, number] :
+       {std::pair{"padding_m", &options.padding_m}, {"inflation_mps", &options.inflation_mps}}) {
+    const auto read = fields.NumberOr(name, *number);
+    if (!read.ok()) return read.status();
+    *number = *read;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& task) {
+  if (!value.contains("space")) return fields.Error("space", "missing");
+  auto space = ParseSpace(value.at("space"), fields.PathOf("space"));
+  if (!space.ok()) return space.status();
+  task.space = *std::move(space);
+  if (!std::holds_alternative<ArmSpace>(task.space)) {
+    const auto corners = fields.Vectors("area_m");
+    if (!corners.ok()) return corners.status();
+    if (corners->size() != 2) return fields.Error("area_m", "expected two corners");
+    task.area_W = {(*corners)[0], (*corners)[1]};
+  }
+  double start_s = 0, time_limit_s = 0;
+  for (const auto& [name, number] :
+       {std::pair{"max_speed_mps", &task.max_speed_mps},
+        {"max_turn_radps", &task.max_turn_radps},
+        {"start_s", &start_s},
+        {"time_limit_s", &time_limit_s},
+        {"contact_resolution_m", &task.options.contact_resolution_m}}) {
+    const auto read = fields.NumberOr(name, *number);
+    if (!read.ok()) return read.status();
+    *number = *read;
+  }
+  constexpr double kLongest_s = 1e6;
+  if (std::abs(start_s) > kLongest_s) return fields.Error("start_s", "is too long");
+  if (time_limit_s > kLongest_s) return fields.Error("time_limit_s", "is too long");
+  task.start_time = Time() + FromSeconds(start_s);
+  task.time_limit = FromSeconds(time_limit_s);
+  for (const auto& [name, values] : {std::pair{"start", &task.start}, {"goal", &task.goal}}) {
+    auto read = fields.NumberList(name);
+    if (!read.ok()) return read.status();
+    *values = *std::move(read);
+  }
+  return ParseChecks(fields, task.options.check);
+}
+
+absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::path& folder) {
+  const auto fields =
+      JsonFields::Of(json, "",
+                     {"name", "about", "solvable", "robot", "space", "area_m", "max_speed_mps",
+                      "max_turn_radps", "start", "goal", "start_s", "time_limit_s", "unknown",
+                      "padding_m", "inflation_mps", "contact_resolution_m", "objects"});
+  if (!fields.ok()) return fields.status();
+  Scenario scenario;
+  auto name = fields->Text("name");
+  if (!name.ok()) return name.status();
+  scenario.name = *std::move(name);
+  const auto solvable = fields->FlagOr("solvable", true);
+  if (!solvable.ok()) return solvable.status();
+  scenario.solvable = *solvable;
+  if (auto status = ParseTask(*fields, json, scenario.task); !status.ok()) return status;
+  const bool arm = std::holds_alternative<ArmSpace>(scenario.task.space);
+  auto robot = ParseRobotField(*fields, json, arm, folder);
+  if (!robot.ok()) return robot.status();
+  scenario.robot = *std::move(robot);
+  if (fields->Has("objects")) {
+    const auto list = fields->List("objects");
+    if (!list.ok()) return list.status();
+    auto objects = ParseGivenObjects(**list, "objects", folder);
+    if (!objects.ok()) return objects.status();
+    scenario.objects = *std::move(objects);
+  }
+  if (auto status = Validate(scenario.task, scenario.robot); !status.ok()) return status;
+  return scenario;
+}
+
+}  // namespace
+
+Scenario Later(Scenario scenario, Duration by) {
+  scenario.task.start_time += by;
+  for (GivenObject& object : scenario.objects) {
+    object.pose.stamp += by;
+    for (StampedPose& pose : object.future) pose.stamp += by;
+  }
+  return scenario;
+}
+
+absl::StatusOr<Scenario> ParseScenario(const std::filesystem::path& name, const std::string& text) {
+  const auto json = ParseJson(text);
+  if (!json.ok()) return InContext(name.string(), json.status());
+  auto scenario = ScenarioOf(*json, name.parent_path());
+  if (!scenario.ok()) return InContext(name.string(), scenario.status());
+  return scenario;
+}
+
+absl::StatusOr<Scenario> LoadScenario(const std::filesystem::path& file) {
+  const auto text = ReadTextFile(file, "scenario");
+  if (!text.ok()) return text.status();
+  return ParseScenario(file, *text);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,31 @@
+// Planning problems as JSON files; the format is in docs/formats.md, "Scenarios".
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/collision/plan_task.h"
+#include "clearway/scene/given_object.h"
+
+namespace clearway::cli {
+
+// All times count from Time(): see Later. A plain value.
+struct Scenario {
+  std::string name;
+  Robot robot;
+  PlanTask task;
+  std::vector<GivenObject> objects;  // that the scene gets for it
+  bool solvable = true;
+};
+
+// The same, `by` later.
+Scenario Later(Scenario scenario, Duration by);
+
+// INVALID_ARGUMENT names the field, as in "doors.json: objects[2].future[0].t_s: missing";
+// NOT_FOUND if there is no such file. Files that it names are looked for next to it.
+absl::StatusOr<Scenario> ParseScenario(const std::filesystem::path& name, const std::string& text);
+absl::StatusOr<Scenario> LoadScenario(const std::filesystem::path& file);
+
+}  // namespace clearway::cli
