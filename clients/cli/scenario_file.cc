@@ -88,9 +88,9 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
 absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::path& folder) {
   const auto fields =
       JsonFields::Of(json, "",
-                     {"name", "about", "solvable", "robot", "space", "area_m", "max_speed_mps",
-                      "max_turn_radps", "start", "goal", "start_s", "time_limit_s", "unknown",
-                      "padding_m", "inflation_mps", "contact_resolution_m", "objects"});
+                     {"name", "about", "solvable", "optimum_s", "robot", "space", "area_m",
+                      "max_speed_mps", "max_turn_radps", "start", "goal", "start_s", "time_limit_s",
+                      "unknown", "padding_m", "inflation_mps", "contact_resolution_m", "objects"});
   if (!fields.ok()) return fields.status();
   Scenario scenario;
   auto name = fields->Text("name");
@@ -99,6 +99,11 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
   const auto solvable = fields->FlagOr("solvable", true);
   if (!solvable.ok()) return solvable.status();
   scenario.solvable = *solvable;
+  if (fields->Has("optimum_s")) {
+    const auto optimum_s = fields->Positive("optimum_s");
+    if (!optimum_s.ok()) return optimum_s.status();
+    scenario.optimum_s = *optimum_s;
+  }
   if (auto status = ParseTask(*fields, json, scenario.task); !status.ok()) return status;
   const bool arm = std::holds_alternative<ArmSpace>(scenario.task.space);
   auto robot = ParseRobotField(*fields, json, arm, folder);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Scenario {
   PlanTask task;
   std::vector<GivenObject> objects;  // that the scene gets for it
   bool solvable = true;
+  std::optional<double> optimum_s;  // no plan arrives earlier, in seconds after the start
 };
 
 // The same, `by` later.

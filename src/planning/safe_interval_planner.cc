@@ -176,14 +176,11 @@ SafeIntervalPlanner::SafeIntervalPlanner(const ob::SpaceInformationPtr& si)
   specs_.canReportIntermediateSolutions = true;
   declareParam<unsigned int>("first_batch", this, &SafeIntervalPlanner::SetFirstBatch,
                              &SafeIntervalPlanner::GetFirstBatch, "1:1:100000");
-  addPlannerProgressProperty("best cost REAL", [this] {
-    return std::to_string(impl_ ? impl_->Arrival() : std::numeric_limits<double>::infinity());
-  });
-  addPlannerProgressProperty("places INTEGER",
-                             [this] { return std::to_string(impl_ ? impl_->roadmap.size() : 0); });
-  addPlannerProgressProperty("edges checked INTEGER", [this] {
-    return std::to_string(impl_ ? impl_->checks.ways_asked() : 0);
-  });
+  addPlannerProgressProperty("best cost REAL",
+                             [this] { return std::to_string(progress_.arrival_s); });
+  addPlannerProgressProperty("places INTEGER", [this] { return std::to_string(progress_.places); });
+  addPlannerProgressProperty("edges checked INTEGER",
+                             [this] { return std::to_string(progress_.ways_asked); });
 }
 
 SafeIntervalPlanner::~SafeIntervalPlanner() = default;
@@ -191,6 +188,13 @@ SafeIntervalPlanner::~SafeIntervalPlanner() = default;
 void SafeIntervalPlanner::clear() {
   ob::Planner::clear();
   impl_.reset();
+  ShowProgress();
+}
+
+void SafeIntervalPlanner::ShowProgress() {
+  progress_.arrival_s = impl_ ? impl_->Arrival() : std::numeric_limits<double>::infinity();
+  progress_.places = impl_ ? impl_->roadmap.size() : 0;
+  progress_.ways_asked = impl_ ? impl_->checks.ways_asked() : 0;
 }
 
 void SafeIntervalPlanner::setup() {
@@ -239,7 +243,9 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   if (impl_->goals.empty()) return ob::PlannerStatus::INVALID_GOAL;
   bool more = true;
   for (double weight = kGreedy; more && !until();) {
-    if (impl_->Search(weight, *pdef_->getGoal(), until)) {
+    const bool earlier = impl_->Search(weight, *pdef_->getGoal(), until);
+    ShowProgress();
+    if (earlier) {
       AddSolution();
       impl_->JoinAlongPath();
       weight = std::max(1.0, kLessGreedy * weight);

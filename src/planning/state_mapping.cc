@@ -230,7 +230,8 @@ double StateMapping::LegCount(const ob::StateSpace& space, const ob::State* from
   double legs = 1;
   if (kind_ == Kind::kOther || slope_ != 0) {
     const auto bound_m = MotionBoundMetres(from, to);
-    legs = bound_m ? std::ceil(*bound_m / leg_m)
+    // Where it is known how little links stray, their legs may be longer.
+    legs = bound_m ? std::ceil(*bound_m / (deviations_ ? 3 * leg_m : leg_m))
                    : static_cast<double>(space.validSegmentCount(from, to));
     if (std::isnan(legs)) return legs;
   }

@@ -4,6 +4,8 @@
 #include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/Planner.h>
 
+#include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -66,6 +68,14 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   void AddSolution();
 
   std::unique_ptr<Impl> impl_;
+  // For other threads, as of the last search.
+  struct Progress {
+    std::atomic<double> arrival_s = std::numeric_limits<double>::infinity();
+    std::atomic<std::size_t> places = 0, ways_asked = 0;
+  };
+  void ShowProgress();
+
+  Progress progress_;
   unsigned int first_batch_ = 200;
 };
 
