@@ -151,9 +151,9 @@ absl::Status ValidateLimits(const ServerLimits& limits) {
       !status.ok()) {
     return status;
   }
-  return Require(
-      limits.max_lease_ttl_s <= 1e6 && limits.max_version_wait_s <= 1e6 && limits.max_planning_s <= 1e6,
-      "limits.max_lease_ttl_s", "times must be at most 1000000 s");
+  return Require(limits.max_lease_ttl_s <= 1e6 && limits.max_version_wait_s <= 1e6 &&
+                     limits.max_planning_s <= 1e6,
+                 "limits.max_lease_ttl_s", "times must be at most 1000000 s");
 }
 
 bool NamesAPortOrSocket(const std::string& listen) {

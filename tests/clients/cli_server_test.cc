@@ -1,6 +1,8 @@
 // The tool against a real server that has seen a small simulated drive.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -69,6 +71,52 @@ TEST_F(CliServer, Empty) {
   const Finished slice = Clearway({"occupancy", "--slice", "0"});
   EXPECT_EQ(slice.exit_code, 1);
   EXPECT_THAT(slice.err, HasSubstr("clearway: the scene is empty"));
+}
+
+// Every file that comes with Clearway.
+TEST_F(CliServer, PlansInScenarios) {
+  int scenarios = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CLEARWAY_SCENARIOS)) {
+    ++scenarios;
+    const std::string file = entry.path().string();
+    std::ifstream stream(file);
+    const json scenario = json::parse(stream);
+    const bool solvable = scenario.value("solvable", true);
+    const Finished dut = Clearway({"plan", file, "--first", "--budget", solvable ? "20" : "0.1"});
+    if (solvable) {
+      EXPECT_EQ(dut.exit_code, 0) << file << ": " << dut.err;
+      EXPECT_THAT(dut.out, HasSubstr("arrives after"));
+    }
+    EXPECT_EQ(Ask({"objects"})["objects"], json::array());  // they are taken away again
+  }
+  EXPECT_GE(scenarios, 9);
+}
+
+TEST_F(CliServer, APlanIsAPathInTime) {
+  const std::string file = std::string(CLEARWAY_SCENARIOS) + "/one_door.json";
+  const json dut = Ask({"plan", file, "--budget", "0.5"});
+  EXPECT_EQ(dut["found"], true);
+  ASSERT_FALSE(dut["plans"].empty());
+  const double arrival_s = dut["plans"].back()["arrival_s"];
+  EXPECT_GE(arrival_s, 15.4);
+  const json& path = dut["path"];
+  EXPECT_EQ(path.front()["t_s"], 0);
+  EXPECT_EQ(path.front()["configuration"], json({-5.0, 0.0}));
+  EXPECT_EQ(path.back()["t_s"], arrival_s);
+}
+
+TEST_F(CliServer, NoPlanSaysWhy) {
+  const std::string folder = CLEARWAY_SCENARIOS;
+  const Finished taken = Clearway({"plan", folder + "/goal_taken.json", "--budget", "0.1"});
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_THAT(taken.err, HasSubstr("the goal is never free, first of all blocked by object 1"));
+  const Finished walled = Clearway({"plan", folder + "/walled_in.json", "--budget", "0.1"});
+  EXPECT_EQ(walled.exit_code, 1);
+  EXPECT_THAT(walled.err, HasSubstr("no plan found within 0.1 s"));
+  EXPECT_EQ(Clearway({"plan"}).exit_code, 2);
+  const Finished missing = Clearway({"plan", folder + "/nothing.json"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("no such scenario"));
 }
 
 TEST_F(CliServer, ReplayIsAppliedOnce) {

@@ -1,0 +1,109 @@
+#include "cli/scenario_file.h"
+
+#include <gmock/gmock.h>
+
+namespace clearway::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr char kDoor[] = R"({
+  "name": "door", "robot": "cylinder:0.3,1", "space": {"type": "plane", "turns": false},
+  "area_m": [[-6, -4, 0], [6, 4, 0]], "max_speed_mps": 1.5, "start": [-5, 0], "goal": [5, 0],
+  "start_s": 2, "time_limit_s": 60, "unknown": "free", "padding_m": 0.1, "optimum_s": 9,
+  "objects": [
+    {"id": 3, "shape": {"type": "box", "size_m": [0.2, 1.6, 2]}, "pose": {"position_m": [0, 0, 1]},
+     "future": [{"t_s": 10, "pose": {"position_m": [0, 0, 7]}}]},
+    {"id": 4, "shape": {"type": "sphere", "radius_m": 0.5}, "velocity_mps": [1, 0, 0]}
+  ]})";
+
+// kDoor with one text in the place of another.
+std::string Spoilt(const std::string& what, const std::string& by) {
+  std::string text = kDoor;
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+std::string MessageOf(const std::string& text) {
+  return std::string(ParseScenario("s.json", text).status().message());
+}
+
+TEST(ScenarioFile, ReadsAllOfIt) {
+  const auto dut = ParseScenario("s.json", kDoor);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->name, "door");
+  EXPECT_EQ(std::get<Cylinder>(dut->robot.links[0].shapes[0].shape), (Cylinder{0.3, 1}));
+  EXPECT_FALSE(std::get<PlaneSpace>(dut->task.space).turns);
+  EXPECT_EQ(dut->task.area_W, (Aabb{{-6, -4, 0}, {6, 4, 0}}));
+  EXPECT_EQ(dut->task.max_speed_mps, 1.5);
+  EXPECT_EQ(dut->task.start, (std::vector<double>{-5, 0}));
+  EXPECT_EQ(dut->task.start_time, Time() + std::chrono::seconds(2));
+  EXPECT_EQ(dut->task.time_limit, std::chrono::seconds(60));
+  EXPECT_EQ(dut->task.options.check.unknown, UnknownPolicy::kFree);
+  EXPECT_EQ(dut->task.options.check.padding_m, 0.1);
+  EXPECT_EQ(dut->optimum_s, 9);
+  EXPECT_TRUE(dut->solvable);
+  ASSERT_EQ(dut->objects.size(), 2u);
+  EXPECT_EQ(dut->objects[0].id, 3);
+  EXPECT_EQ(dut->objects[0].future[0].stamp, Time() + std::chrono::seconds(10));
+  EXPECT_EQ(dut->objects[0].future[0].T_W_O.translation, Eigen::Vector3d(0, 0, 7));
+  EXPECT_EQ(dut->objects[1].velocity_O->linear, Eigen::Vector3d(1, 0, 0));
+}
+
+TEST(ScenarioFile, LaterMovesAllTimes) {
+  const auto scenario = ParseScenario("s.json", kDoor);
+  ASSERT_TRUE(scenario.ok());
+  const Scenario dut = Later(*scenario, std::chrono::seconds(100));
+  EXPECT_EQ(dut.task.start_time, Time() + std::chrono::seconds(102));
+  EXPECT_EQ(dut.objects[0].pose.stamp, Time() + std::chrono::seconds(100));
+  EXPECT_EQ(dut.objects[0].future[0].stamp, Time() + std::chrono::seconds(110));
+}
+
+TEST(ScenarioFile, ReadsArmsAndFlight) {
+  const auto arm = ParseScenario("s.json", R"({"name": "arm", "robot": {"name": "r", "links": [
+      {"name": "base", "shapes": [{"type": "box", "size_m": [1, 1, 1]}]},
+      {"name": "one", "shapes": [{"type": "box", "size_m": [1, 1, 1]}]}]},
+    "space": {"type": "arm", "base": {"position_m": [1, 2, 3]}, "joints": [
+      {"pose": {"position_m": [0, 0, 1]}, "axis": [0, 1, 0], "min_rad": -1, "max_rad": 2, "max_radps": 0.5}]},
+    "start": [0], "goal": [1], "time_limit_s": 10})");
+  ASSERT_TRUE(arm.ok()) << arm.status();
+  const auto& space = std::get<ArmSpace>(arm->task.space);
+  EXPECT_EQ(space.T_W_B.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(space.joints[0].axis_J, Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(space.joints[0].max_rad, 2);
+  const auto flight = ParseScenario(
+      "s.json", R"({"name": "f", "robot": "sphere:1", "space": {"type": "flight", "turns": false},
+    "area_m": [[0, 0, 0], [9, 9, 9]], "max_speed_mps": 1, "start": [1, 1, 1], "goal": [2, 2, 2],
+    "time_limit_s": 10})");
+  ASSERT_TRUE(flight.ok()) << flight.status();
+  EXPECT_FALSE(std::get<FlightSpace>(flight->task.space).turns);
+}
+
+TEST(ScenarioFile, WhatIsWrongIsNamed) {
+  const auto expect = [](const char* what, const char* by, const char* message) {
+    EXPECT_THAT(MessageOf(Spoilt(what, by)), HasSubstr(message)) << what << " -> " << by;
+  };
+  EXPECT_THAT(MessageOf("{"), HasSubstr("s.json: parse error at line 1"));
+  expect("\"name\": \"door\",", "", "s.json: name: missing");
+  expect("\"padding_m\"", "\"paddin\"", "s.json: paddin: unknown field");
+  expect("\"plane\"", "\"plain\"", "space.type: expected plane, flight or arm");
+  expect("\"turns\": false", "\"turns\": 1", "space.turns: expected true or false");
+  expect("[6, 4, 0]]", "[6, 4]]", "area_m[1]: expected 3 numbers");
+  expect("\"start\": [-5, 0]", "\"start\": [-5]", "start has 1 numbers; it must have 2");
+  expect("\"start\": [-5, 0]", "\"start\": [-50, 0]", "start[0] is -50");
+  expect("\"max_speed_mps\": 1.5", "\"max_speed_mps\": 0", "max_speed_mps is 0");
+  expect("\"free\"", "\"fre\"", "unknown: ");
+  expect("cylinder:0.3,1", "cylinder:0.3", "cylinder:0.3");
+  expect("\"id\": 3", "\"id\": 3.5", "objects[0].id: expected a whole number");
+  expect("\"t_s\": 10, ", "", "objects[0].future[0].t_s: missing");
+  expect("\"radius_m\": 0.5", "\"radius_m\": -1", "objects[1].shape.radius_m");
+}
+
+TEST(ScenarioFile, AFileThatIsNotThere) {
+  const auto dut = LoadScenario("/nowhere/s.json");
+  EXPECT_EQ(dut.status().code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(std::string(dut.status().message()), HasSubstr("/nowhere/s.json: no such scenario"));
+}
+
+}  // namespace
+}  // namespace clearway::cli
