@@ -23,6 +23,7 @@
 #include "planner_runs.h"
 #include "scenario_truth.h"
 #include "summary.h"
+#include "support/data_folder.h"
 
 namespace clearway::bench {
 namespace {
@@ -166,6 +167,10 @@ void Scenarios(benchmark::State& state, const RunCounts& counts) {
     Worst worst;
     for (const auto& path : files) {
       const auto scenario = cli::LoadScenario(path);
+      if (absl::IsNotFound(scenario.status())) {  // of a recording
+        std::printf("%s\n", scenario.status().ToString().c_str());
+        continue;
+      }
       if (!scenario.ok()) return state.SkipWithError(scenario.status().ToString().c_str());
       if (scenario->solvable) {
         RunSolvable(state, *scenario, path.stem().string(), counts, worst);
@@ -183,6 +188,7 @@ void Scenarios(benchmark::State& state, const RunCounts& counts) {
 void Register(const Effort& effort) {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   ompl::RNG::setSeed(1);
+  if (const auto data = DataPath("")) setenv("CLEARWAY_DATA", data->c_str(), 0);  // scenarios' own
   const RunCounts counts = effort.quick ? RunCounts{5, 2} : RunCounts{100, 20};
   Effort once = effort;
   once.repetitions = 1;

@@ -8,6 +8,7 @@
 #include "cli/robot_file.h"
 #include "cli/scenario_objects.h"
 #include "cli/scenario_space.h"
+#include "cli/scenario_tracks.h"
 
 namespace clearway::cli {
 namespace {
@@ -86,11 +87,11 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
 }
 
 absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::path& folder) {
-  const auto fields =
-      JsonFields::Of(json, "",
-                     {"name", "about", "solvable", "optimum_s", "robot", "space", "area_m",
-                      "max_speed_mps", "max_turn_radps", "start", "goal", "start_s", "time_limit_s",
-                      "unknown", "padding_m", "inflation_mps", "contact_resolution_m", "objects"});
+  const auto fields = JsonFields::Of(
+      json, "",
+      {"name", "about", "solvable", "optimum_s", "robot", "space", "area_m", "max_speed_mps",
+       "max_turn_radps", "start", "goal", "start_s", "time_limit_s", "unknown", "padding_m",
+       "inflation_mps", "contact_resolution_m", "objects", "tracks"});
   if (!fields.ok()) return fields.status();
   Scenario scenario;
   auto name = fields->Text("name");
@@ -115,6 +116,12 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
     auto objects = ParseGivenObjects(**list, "objects", folder);
     if (!objects.ok()) return objects.status();
     scenario.objects = *std::move(objects);
+  }
+  if (fields->Has("tracks")) {
+    constexpr ObjectId kFirstId = 1'000'000;
+    auto people = ParseTracks(json.at("tracks"), "tracks", kFirstId);
+    if (!people.ok()) return people.status();
+    scenario.objects.insert(scenario.objects.end(), people->begin(), people->end());
   }
   if (auto status = Validate(scenario.task, scenario.robot); !status.ok()) return status;
   return scenario;

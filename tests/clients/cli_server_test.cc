@@ -81,6 +81,7 @@ TEST_F(CliServer, PlansInScenarios) {
     const std::string file = entry.path().string();
     std::ifstream stream(file);
     const json scenario = json::parse(stream);
+    if (scenario.contains("tracks")) continue;  // a recording's
     const bool solvable = scenario.value("solvable", true);
     const Finished dut = Clearway({"plan", file, "--first", "--budget", solvable ? "20" : "0.1"});
     if (solvable) {

@@ -2,6 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <fstream>
+
+#include "support/temporary_folder.h"
+
 namespace clearway::cli {
 namespace {
 
@@ -97,6 +102,32 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("\"id\": 3", "\"id\": 3.5", "objects[0].id: expected a whole number");
   expect("\"t_s\": 10, ", "", "objects[0].future[0].t_s: missing");
   expect("\"radius_m\": 0.5", "\"radius_m\": -1", "objects[1].shape.radius_m");
+}
+
+// Two people: one is seen from 8 s to 12 s and goes along x, one long before.
+TEST(ScenarioFile, RecordedPeopleGoStraightBeforeAndAfterTheyAreSeen) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "people.txt")
+      << "200 7 1 0 5 1 0 0\n300 7 5 0 5 2 0 0\n\n10 8 0 0 0 0 0 0\n";
+  setenv("CLEARWAY_DATA", folder.path().c_str(), 1);
+  const std::string text = Spoilt(
+      "\"objects\"", R"("tracks": {"format": "ucy", "file": "people.txt", "from_s": 6, "for_s": 10,
+                        "radius_m": 0.3, "height_m": 1.8}, "objects")");
+  const auto scenario = ParseScenario("s.json", text);
+  unsetenv("CLEARWAY_DATA");
+  ASSERT_TRUE(scenario.ok()) << scenario.status();
+  ASSERT_EQ(scenario->objects.size(), 3u);
+  const GivenObject& dut = scenario->objects[2];
+  EXPECT_EQ(std::get<Cylinder>(dut.shape), (Cylinder{0.3, 1.8}));
+  EXPECT_EQ(dut.pose.stamp, Time());
+  EXPECT_EQ(dut.pose.T_W_O.translation, Eigen::Vector3d(-1, 5, 0.9));
+  ASSERT_EQ(dut.future.size(), 3u);
+  EXPECT_EQ(dut.future[0].stamp, Time() + std::chrono::seconds(2));
+  EXPECT_EQ(dut.future[0].T_W_O.translation, Eigen::Vector3d(1, 5, 0.9));
+  EXPECT_EQ(dut.future[1].T_W_O.translation, Eigen::Vector3d(5, 5, 0.9));
+  EXPECT_EQ(dut.future[2].stamp, Time() + std::chrono::seconds(10));
+  EXPECT_EQ(dut.future[2].T_W_O.translation, Eigen::Vector3d(13, 5, 0.9));
+  EXPECT_THAT(MessageOf(text), HasSubstr("tracks.file: no people.txt in the folder"));
 }
 
 TEST(ScenarioFile, AFileThatIsNotThere) {

@@ -212,12 +212,26 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   info.instance = "abc";
   std::uint64_t next = 100;
   ServerLimits& l = info.limits;
-  for (std::uint64_t* limit :
-       {&l.max_message_bytes, &l.max_points_per_frame, &l.max_objects, &l.max_states_per_batch,
-        &l.max_points_per_query, &l.max_robots, &l.max_links_per_robot, &l.max_triangles_per_robot,
-        &l.max_voxels_per_robot, &l.max_leases, &l.max_follow_streams, &l.max_push_streams,
-        &l.max_frames_in_flight, &l.max_queued_frames, &l.max_remembered_answers,
-        &l.max_prior_bytes, &l.max_boxes, &l.max_calls, &l.max_plans, &l.max_watch_streams}) {
+  for (std::uint64_t* limit : {&l.max_message_bytes,
+                               &l.max_points_per_frame,
+                               &l.max_objects,
+                               &l.max_states_per_batch,
+                               &l.max_points_per_query,
+                               &l.max_robots,
+                               &l.max_links_per_robot,
+                               &l.max_triangles_per_robot,
+                               &l.max_voxels_per_robot,
+                               &l.max_leases,
+                               &l.max_follow_streams,
+                               &l.max_push_streams,
+                               &l.max_frames_in_flight,
+                               &l.max_queued_frames,
+                               &l.max_remembered_answers,
+                               &l.max_prior_bytes,
+                               &l.max_boxes,
+                               &l.max_calls,
+                               &l.max_plans,
+                               &l.max_watch_streams}) {
     *limit = next++;
   }
   l.max_coordinate_m = 1.5;
