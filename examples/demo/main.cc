@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "demo/run.h"
@@ -18,6 +19,8 @@ int main(int argc, char** argv) {
   app.option_defaults()->always_capture_default();
   app.add_option("--data", options.data, "Folder of LiDAR scans; without it, the simulator")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--plan-after", options.plan_after, "Frames of the folder after which to plan")
+      ->delimiter(',');
   app.add_option("--scenario", options.scenario, "World of the simulator");
   app.add_option("--out", options.output, "Folder for summary.json and the pictures");
   app.add_option("--server", options.server, "The server's program")
@@ -36,6 +39,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1u, 10'000'000u));
   app.add_option("--seed", seed, "Of the planner's random numbers")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
+  std::ranges::sort(options.plan_after);
   ompl::RNG::setSeed(seed);
 
   const auto passed = clearway::demo::RunDemo(options, std::cout, isatty(STDOUT_FILENO) != 0);

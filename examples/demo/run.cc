@@ -206,8 +206,8 @@ class Demo {
 }  // namespace
 
 absl::StatusOr<bool> RunDemo(const DemoOptions& options, std::ostream& out, bool is_terminal) {
-  const auto sequence =
-      options.data.empty() ? SimulatedSequence(options.scenario) : RecordedSequence(options.data);
+  const auto sequence = options.data.empty() ? SimulatedSequence(options.scenario)
+                                             : RecordedSequence(options.data, options.plan_after);
   if (!sequence.ok()) return sequence.status();
   std::error_code error;
   std::filesystem::create_directories(options.output, error);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "demo/plan.h"
@@ -12,8 +13,9 @@ namespace clearway::demo {
 
 // A plain value.
 struct DemoOptions {
-  std::string data;                   // a LiDAR folder; empty: the simulator
-  std::string scenario = "crossing";  // of the simulator
+  std::string data;                                    // a LiDAR folder; empty: the simulator
+  std::vector<std::size_t> plan_after = {20, 40, 60};  // frames of the folder, ascending
+  std::string scenario = "crossing";                   // of the simulator
   std::filesystem::path output = "demo-output";
   std::string server;  // the program
   PlanSettings planning;

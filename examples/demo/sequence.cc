@@ -102,7 +102,8 @@ absl::StatusOr<Sequence> SimulatedSequence(const std::string& scenario) {
   return sequence;
 }
 
-absl::StatusOr<Sequence> RecordedSequence(const std::string& folder_name) {
+absl::StatusOr<Sequence> RecordedSequence(const std::string& folder_name,
+                                          const std::vector<std::size_t>& plan_after) {
   const auto folder = OpenLidarFolder(folder_name);
   if (!folder.ok()) return folder.status();
   Sequence sequence;
@@ -112,7 +113,7 @@ absl::StatusOr<Sequence> RecordedSequence(const std::string& folder_name) {
   for (const RecordedBox& box : folder->boxes) {
     sequence.object_names[box.id] = absl::StrCat(absl::AsciiStrToLower(box.type), " ", box.id);
   }
-  for (const std::size_t frame : {20, 40, 60}) {
+  for (const std::size_t frame : plan_after) {
     if (frame >= folder->frames.frame_count) break;
     Stop stop{frame, {}};
     for (const ObjectId id : MovingObjects(*folder, 2)) {
@@ -123,9 +124,8 @@ absl::StatusOr<Sequence> RecordedSequence(const std::string& folder_name) {
     sequence.stops.push_back(std::move(stop));
   }
   if (sequence.stops.empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(folder_name, ": has ", folder->frames.frame_count,
-                     " frames; the first plan is made after frame 20"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        folder_name, ": has ", folder->frames.frame_count, " frames, none of those to plan after"));
   }
   return sequence;
 }

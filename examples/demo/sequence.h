@@ -40,8 +40,9 @@ struct Sequence {
 // A scenario of the simulator, by its tasks. INVALID_ARGUMENT for one without tasks.
 absl::StatusOr<Sequence> SimulatedSequence(const std::string& scenario);
 
-// A LiDAR folder: after frames 20, 40 and 60 the recorded paths of the first two moving objects are
-// crossed.
-absl::StatusOr<Sequence> RecordedSequence(const std::string& folder);
+// A LiDAR folder: after the frames, ascending, the recorded paths of the first two moving objects
+// are crossed. Frames that it does not have are left out; INVALID_ARGUMENT if that leaves none.
+absl::StatusOr<Sequence> RecordedSequence(const std::string& folder,
+                                          const std::vector<std::size_t>& plan_after);
 
 }  // namespace clearway::demo

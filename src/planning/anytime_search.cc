@@ -1,0 +1,127 @@
+#include "planning/anytime_search.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+// How many ways a search may ask about for each place before there had better be more places.
+constexpr std::size_t kWaysEach = 100;
+// An arrival that is no earlier than the one before by this is no news.
+constexpr double kEarlier_s = 1e-3;
+
+}  // namespace
+
+AnytimeSearch::AnytimeSearch(const ob::SpaceInformationPtr& si, const SpaceTimeStateSpace& space)
+    : si_(si),
+      space_(space),
+      roadmap_(space),
+      checks_(si),
+      search_(space, roadmap_, checks_),
+      sampler_(space.space()->allocStateSampler()),
+      there_(si->allocState()) {}
+
+AnytimeSearch::~AnytimeSearch() { si_->freeState(there_); }
+
+void AnytimeSearch::AddStart(const ob::State* part, double seconds) {
+  starts_.emplace_back(roadmap_.Add(part), seconds);
+}
+
+bool AnytimeSearch::AddGoal(const ob::State* part) {
+  for (const std::size_t known : goals_) {
+    if (space_.space()->equalStates(part, roadmap_.Place(known))) return false;
+  }
+  goals_.push_back(roadmap_.Add(part));
+  return true;
+}
+
+ob::State* AnytimeSearch::At(std::size_t place, double seconds) const {
+  space_.space()->copyState(SpaceTimeStateSpace::SpacePart(there_), roadmap_.Place(place));
+  SpaceTimeStateSpace::SetSeconds(there_, seconds);
+  return there_;
+}
+
+// The earliest arrival by way of the place, at full speed.
+double AnytimeSearch::ArrivalBy(const ob::State* part) const {
+  double reached_s = std::numeric_limits<double>::infinity(), left_s = reached_s;
+  for (const auto& [start, seconds] : starts_) {
+    reached_s = std::min(reached_s, seconds + space_.MinSeconds(roadmap_.Place(start), part));
+  }
+  for (const std::size_t goal : goals_) {
+    left_s = std::min(left_s, space_.MinSeconds(part, roadmap_.Place(goal)));
+  }
+  return reached_s + left_s;
+}
+
+// Once there is a path, every other place is near it.
+void AnytimeSearch::SamplePlace(ob::State* part) {
+  constexpr double kNear = 0.05;  // of the space
+  if (path_.empty() || random_.uniform01() < 0.5) return sampler_->sampleUniform(part);
+  const int stay = random_.uniformInt(0, static_cast<int>(path_.size()) - 1);
+  sampler_->sampleUniformNear(part, roadmap_.Place(path_[stay].place),
+                              kNear * space_.space()->getMaximumExtent());
+}
+
+bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCondition& until) {
+  constexpr std::size_t kTriesEach = 100;
+  ob::State* const part = space_.space()->allocState();
+  std::size_t added = 0;
+  for (std::size_t tries = 0; added < count && tries < kTriesEach * count && !until(); ++tries) {
+    SamplePlace(part);
+    if (ArrivalBy(part) >= std::min(Arrival(), space_.latest_s())) continue;
+    roadmap_.Add(part);
+    ++added;
+  }
+  space_.space()->freeState(part);
+  return added > 0;
+}
+
+bool AnytimeSearch::Search(double weight, const ob::Goal& goal,
+                           const ob::PlannerTerminationCondition& until) {
+  std::vector<Stay> found = search_.Find(
+      {.starts = starts_,
+       .goals = goals_,
+       .arrived = [&](std::size_t place,
+                      double arrival_s) { return goal.isSatisfied(At(place, arrival_s)); },
+       .weight = weight,
+       .earlier_than_s = Arrival() - kEarlier_s,
+       .most_ways = kWaysEach * roadmap_.size(),
+       .cancelled = [&] { return until(); }});
+  if (found.empty()) return false;
+  path_ = std::move(found);
+  return true;
+}
+
+// A way that leaves out places in between may be shorter.
+void AnytimeSearch::JoinAlongPath() {
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    for (std::size_t j = i + 2; j < path_.size(); ++j)
+      roadmap_.Join(path_[i].place, path_[j].place);
+  }
+}
+
+bool AnytimeSearch::GoalsAreTaken() const {
+  constexpr int kLooks = 100;
+  for (int look = 0; look <= kLooks; ++look) {
+    for (const std::size_t goal : goals_) {
+      if (si_->isValid(At(goal, space_.latest_s() * look / kLooks))) return false;
+    }
+  }
+  return true;
+}
+
+std::shared_ptr<og::PathGeometric> AnytimeSearch::Path() const {
+  auto result = std::make_shared<og::PathGeometric>(si_);
+  for (std::size_t i = 0; i < path_.size(); ++i) {
+    if (i > 0 && path_[i].departed_s > path_[i - 1].arrival_s) {
+      result->append(At(path_[i - 1].place, path_[i].departed_s));
+    }
+    result->append(At(path_[i].place, path_[i].arrival_s));
+  }
+  return result;
+}
+
+}  // namespace clearway
