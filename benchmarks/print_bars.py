@@ -25,6 +25,7 @@ AT_LEAST = {
     "motion_vs_sampled_x": 5,
     "motion_vs_fcl_x": 100,
     "discs_solved_fraction": 1,
+    "plan_success_fraction": 0.99,
 }
 AT_MOST = {
     "publish_ms": 1,
@@ -45,6 +46,8 @@ AT_MOST = {
     "discs_first_60_ms": 48.9,
     "discs_arrival_40_s": 18.22,
     "discs_arrival_60_s": 21.60,
+    "plan_touching": 0,
+    "plan_over_optimum_x": 1.05,
 }
 
 
