@@ -1,0 +1,199 @@
+#include "closed_loop/course.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clearway::closed_loop {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLength_m = 16, kHalfWidth_m = 7, kBehindEnds_m = 3;
+constexpr double kLasts_s = 30;
+// Between whatever stands, and between that and what passes: the robot is 0.6 m wide.
+constexpr double kApart_m = 2.0, kPassageBesideWalls_m = 1.0, kBetweenObjects_m = 0.3;
+constexpr double kRoomAtStart_m = 2.0, kQuietAtStart_s = 3;
+
+// Random numbers that are the same with every standard library.
+class Dice {
+ public:
+  Dice(std::uint64_t seed, Traffic traffic) : engine_(2 * seed + (traffic == Traffic::kTurning)) {}
+  double Between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  int Below(int count) { return static_cast<int>(Between(0, count)); }
+  double Sign() { return Below(2) == 0 ? -1 : 1; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// What stands, from above: all points within a radius of a segment.
+struct Footprint {
+  Vector2d from_W, to_W;
+  double radius_m;
+
+  double GapTo(const Vector2d& p_W) const {
+    const Vector2d along = to_W - from_W;
+    const double length2 = along.squaredNorm();
+    const double share =
+        length2 > 0 ? std::clamp((p_W - from_W).dot(along) / length2, 0.0, 1.0) : 0;
+    return (from_W + share * along - p_W).norm() - radius_m;
+  }
+};
+
+// How big a body is from above, and how it moves.
+struct Mover {
+  Shape shape;
+  double radius_m;
+  Trajectory trajectory;
+
+  Vector2d At(double seconds) const {
+    return PoseAt(trajectory, Time(FromSeconds(seconds))).translation.head<2>();
+  }
+};
+
+Pose OnGround(const Vector2d& p_W, double yaw_rad, double height_m) {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())),
+          {p_W.x(), p_W.y(), 0.5 * height_m}};
+}
+
+// Makes one course.
+class CourseMaker {
+ public:
+  CourseMaker(std::uint64_t seed, Traffic traffic) : dice_(seed, traffic), traffic_(traffic) {
+    course_.goal_W = {kLength_m, 0};
+    course_.area_W = {{-kBehindEnds_m, -kHalfWidth_m, -1},
+                      {kLength_m + kBehindEnds_m, kHalfWidth_m, 3}};
+  }
+
+  Course Make() {
+    const int walls = 2, pillars = 2 + dice_.Below(2), objects = 4 + dice_.Below(5);
+    for (int i = 0; i < walls; ++i) AddStanding(dice_.Between(2, 3.5));
+    for (int i = 0; i < pillars; ++i) AddStanding(0);
+    for (int i = 0; i < objects; ++i) AddMoving();
+    return std::move(course_);
+  }
+
+ private:
+  static constexpr int kTries = 200;  // what does not fit by then is left out
+
+  // A wall of that length, or a pillar.
+  void AddStanding(double length_m) {
+    constexpr double kHeight_m = 2, kThick_m = 0.2;
+    for (int i = 0; i < kTries; ++i) {
+      const Vector2d p_W(dice_.Between(3, kLength_m - 3), dice_.Between(-5, 5));
+      const double yaw_rad = dice_.Between(0, std::numbers::pi);
+      const double radius_m = length_m > 0 ? 0.5 * kThick_m : dice_.Between(0.15, 0.35);
+      const Vector2d half_W = 0.5 * length_m * Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
+      const Footprint footprint{p_W - half_W, p_W + half_W, radius_m};
+      const bool room = std::ranges::all_of(standing_, [&](const Footprint& other) {
+        return other.GapTo(p_W) > 0.5 * length_m + radius_m + kApart_m;
+      });
+      if (!room) continue;
+      standing_.push_back(footprint);
+      const Shape shape = length_m > 0 ? Shape(Box{{length_m, kThick_m, kHeight_m}})
+                                       : Shape(Cylinder{radius_m, kHeight_m});
+      course_.world.Add(Body::Single(kStaticLabel, length_m > 0 ? "wall" : "pillar", shape,
+                                     FixedPose{OnGround(p_W, yaw_rad, kHeight_m)}));
+      return;
+    }
+  }
+
+  void AddMoving() {
+    for (int i = 0; i < kTries; ++i) {
+      Mover mover = RandomMover();
+      if (!HasRoom(mover)) continue;
+      const auto id = static_cast<ObjectId>(moving_.size() + 1);
+      const char* const kind = std::holds_alternative<Box>(mover.shape) ? "cart " : "person ";
+      course_.world.Add(
+          Body::Single(id, kind + std::to_string(id), mover.shape, mover.trajectory));
+      moving_.push_back(std::move(mover));
+      return;
+    }
+  }
+
+  // Somebody who would be on the straight way about when the robot is.
+  Mover RandomMover() {
+    constexpr double kRobotSpeed_mps = 1.5, kApartInTime_s = 4;
+    const bool cart = dice_.Below(2) == 0;
+    const Eigen::Vector3d size_m(dice_.Between(0.8, 1.8), dice_.Between(0.5, 0.9),
+                                 dice_.Between(1.0, 1.6));
+    const double radius_m = cart ? 0.5 * size_m.head<2>().norm() : dice_.Between(0.2, 0.35);
+    const double speed_mps = dice_.Between(0.3, 1.5);
+    const double yaw_rad = dice_.Sign() * (0.5 * std::numbers::pi + dice_.Between(-0.7, 0.7));
+    const double meets_x_m = dice_.Between(2.5, kLength_m - 2.5);
+    const double meets_s =
+        meets_x_m / kRobotSpeed_mps + dice_.Between(-kApartInTime_s, 2 * kApartInTime_s);
+    const Vector2d heading(std::cos(yaw_rad), std::sin(yaw_rad));
+    const double height_m = cart ? size_m.z() : 1.7;
+    const Pose T_W_B =
+        OnGround(Vector2d(meets_x_m, 0) - speed_mps * meets_s * heading, yaw_rad, height_m);
+    return {cart ? Shape(Box{size_m}) : Shape(Cylinder{radius_m, height_m}), radius_m,
+            traffic_ == Traffic::kSteady ? Trajectory(Steady(T_W_B, speed_mps))
+                                         : Trajectory(Turning(T_W_B, speed_mps))};
+  }
+
+  static ConstantTwist Steady(const Pose& T_W_B, double speed_mps) {
+    return {T_W_B, {.linear = {speed_mps, 0, 0}}, Time()};
+  }
+
+  // Legs of all kinds, one after the other.
+  Drive Turning(const Pose& T_W_B, double speed_mps) {
+    Drive drive{.T_W_B = T_W_B, .start_speed_mps = speed_mps};
+    for (double left_s = kLasts_s; left_s > 0;) {
+      const double straight_s = dice_.Between(0.5, 3), turn_s = dice_.Between(0.6, 1.5);
+      left_s -= straight_s;
+      drive.legs.push_back({FromSeconds(straight_s), speed_mps});
+      if (dice_.Below(3) > 0) {
+        left_s -= turn_s;
+        drive.legs.push_back(
+            {FromSeconds(turn_s), speed_mps, dice_.Sign() * dice_.Between(0.5, 2.1)});
+      } else {
+        const double stays_s = dice_.Between(0.3, 2.5);
+        left_s -= turn_s + stays_s;
+        drive.legs.push_back({FromSeconds(0.5 * turn_s), 0});
+        drive.legs.push_back({FromSeconds(stays_s), 0});
+        drive.legs.push_back({FromSeconds(0.5 * turn_s), speed_mps});
+      }
+    }
+    return drive;
+  }
+
+  bool HasRoom(const Mover& mover) const {
+    for (double seconds = 0; seconds <= kLasts_s; seconds += 0.1) {
+      const Vector2d p_W = mover.At(seconds);
+      if (seconds <= kQuietAtStart_s &&
+          (p_W - course_.start_W).norm() < mover.radius_m + kRoomAtStart_m) {
+        return false;
+      }
+      for (const Footprint& other : standing_) {
+        if (other.GapTo(p_W) < mover.radius_m + kPassageBesideWalls_m) return false;
+      }
+      for (const Mover& other : moving_) {
+        const double gap_m = (other.At(seconds) - p_W).norm() - other.radius_m - mover.radius_m;
+        if (gap_m < kBetweenObjects_m) return false;
+      }
+    }
+    return true;
+  }
+
+  Dice dice_;
+  Traffic traffic_;
+  Course course_;
+  std::vector<Footprint> standing_;
+  std::vector<Mover> moving_;
+};
+
+}  // namespace
+
+Course MakeCourse(std::uint64_t seed, Traffic traffic) { return CourseMaker(seed, traffic).Make(); }
+
+}  // namespace clearway::closed_loop
