@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLength_m = 16, kHalfWidth_m = 7, kBehindEnds_m = 3;
-constexpr double kLasts_s = 30;
+constexpr double kLength_m = 12, kHalfWidth_m = 7, kBehindEnds_m = 3;
+constexpr double kLasts_s = 30, kFastest_mps = 1.5;
 // Between whatever stands, and between that and what passes: the robot is 0.6 m wide.
 constexpr double kApart_m = 2.0, kPassageBesideWalls_m = 1.0, kBetweenObjects_m = 0.3;
 constexpr double kRoomAtStart_m = 2.0, kQuietAtStart_s = 3;
@@ -75,7 +75,8 @@ class CourseMaker {
   }
 
   Course Make() {
-    const int walls = 2, pillars = 2 + dice_.Below(2), objects = 4 + dice_.Below(5);
+    const int walls = 2, pillars = 2 + dice_.Below(2);
+    const int objects = traffic_ == Traffic::kSteady ? 4 + dice_.Below(5) : 8 + dice_.Below(7);
     for (int i = 0; i < walls; ++i) AddStanding(dice_.Between(2, 3.5));
     for (int i = 0; i < pillars; ++i) AddStanding(0);
     for (int i = 0; i < objects; ++i) AddMoving();
@@ -83,7 +84,7 @@ class CourseMaker {
   }
 
  private:
-  static constexpr int kTries = 200;  // what does not fit by then is left out
+  static constexpr int kTries = 1000;  // what does not fit by then is left out
 
   // A wall of that length, or a pillar.
   void AddStanding(double length_m) {
@@ -127,7 +128,8 @@ class CourseMaker {
     const Eigen::Vector3d size_m(dice_.Between(0.8, 1.8), dice_.Between(0.5, 0.9),
                                  dice_.Between(1.0, 1.6));
     const double radius_m = cart ? 0.5 * size_m.head<2>().norm() : dice_.Between(0.2, 0.35);
-    const double speed_mps = dice_.Between(0.3, 1.5);
+    const double speed_mps =
+        dice_.Between(traffic_ == Traffic::kSteady ? 0.3 : 0.7, kFastest_mps);
     const double yaw_rad = dice_.Sign() * (0.5 * std::numbers::pi + dice_.Between(-0.7, 0.7));
     const double meets_x_m = dice_.Between(2.5, kLength_m - 2.5);
     const double meets_s =
@@ -145,23 +147,26 @@ class CourseMaker {
     return {T_W_B, {.linear = {speed_mps, 0, 0}}, Time()};
   }
 
-  // Legs of all kinds, one after the other.
+  // Legs of all kinds, one after the other. Turns lead back to the middle, so that nobody is gone
+  // soon.
   Drive Turning(const Pose& T_W_B, double speed_mps) {
     Drive drive{.T_W_B = T_W_B, .start_speed_mps = speed_mps};
-    for (double left_s = kLasts_s; left_s > 0;) {
-      const double straight_s = dice_.Between(0.5, 3), turn_s = dice_.Between(0.6, 1.5);
-      left_s -= straight_s;
-      drive.legs.push_back({FromSeconds(straight_s), speed_mps});
+    Time now;
+    const auto add = [&](double lasts_s, double end_speed_mps, double turn_rad) {
+      drive.legs.push_back({FromSeconds(lasts_s), end_speed_mps, turn_rad});
+      now += drive.legs.back().duration;
+    };
+    while (now < Time(FromSeconds(kLasts_s))) {
+      const double changes_s = dice_.Between(0.3, 0.8);
+      add(dice_.Between(0.3, 2), speed_mps, 0);
       if (dice_.Below(3) > 0) {
-        left_s -= turn_s;
-        drive.legs.push_back(
-            {FromSeconds(turn_s), speed_mps, dice_.Sign() * dice_.Between(0.5, 2.1)});
+        const Eigen::Vector3d middle_B =
+            Inverse(PoseAt(drive, now)) * Eigen::Vector3d(0.5 * kLength_m, 0, 0);
+        add(changes_s, speed_mps, std::copysign(dice_.Between(0.8, 2.4), middle_B.y()));
       } else {
-        const double stays_s = dice_.Between(0.3, 2.5);
-        left_s -= turn_s + stays_s;
-        drive.legs.push_back({FromSeconds(0.5 * turn_s), 0});
-        drive.legs.push_back({FromSeconds(stays_s), 0});
-        drive.legs.push_back({FromSeconds(0.5 * turn_s), speed_mps});
+        add(0.5 * changes_s, 0, 0);
+        add(dice_.Between(0.3, 2.5), 0, 0);
+        add(0.5 * changes_s, speed_mps, 0);
       }
     }
     return drive;

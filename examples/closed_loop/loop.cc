@@ -1,6 +1,9 @@
 #include "closed_loop/loop.h"
 
-#include "clearway/sim/simulation.h"
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include "closed_loop/front_end.h"
 
 namespace clearway::closed_loop {
 namespace {
@@ -9,6 +12,8 @@ constexpr Duration kScanPeriod = std::chrono::milliseconds(100);
 constexpr Duration kLookEvery = std::chrono::milliseconds(10);
 // Beyond the speed of plans, for what SLAM's errors make the robot drift from its path.
 constexpr double kCatchUp_mps = 0.3;
+// The same loop ends alike whatever ran before.
+constexpr std::uint_fast32_t kPlannerSeed = 1;
 
 // A small LiDAR that sees as far as a robot of 1.5 m/s needs.
 SpinningLidar RobotLidar() {
@@ -83,24 +88,30 @@ class Follower {
 absl::StatusOr<LoopResult> RunLoop(const Course& course, const LoopOptions& options,
                                    SceneFeed& feed,
                                    const std::function<void(const LoopStep&)>& watch) {
-  const Simulation simulation = SimulationOf(course, options);
+  // OMPL complains of a second seed, for generators made before keep theirs; we have none.
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  ompl::RNG::setSeed(kPlannerSeed);
+  FrontEnd front_end(SimulationOf(course, options), options.motion_over);
   Navigator navigator(course, options.navigator);
   Follower robot(course.start_W);
   Judge judge(course.world);
   LoopResult result;
-  for (std::size_t k = 0; k < simulation.frame_count(); ++k) {
-    const Time now = simulation.StampOf(k);
-    const Frame frame = simulation.MakeFrameFrom(SensorPose(robot.true_W()), k);
+  const auto scans = static_cast<std::size_t>(options.lasts / kScanPeriod);
+  for (std::size_t k = 0; k < scans; ++k) {
+    const Frame frame = front_end.Scan(SensorPose(robot.true_W()), k);
+    const Time now = frame.stamp;
     judge.Saw(frame.labels, now);
     const absl::StatusOr<ScenePtr> scene = feed.Push(frame);
     if (!scene.ok()) return scene.status();
     const double left_m = (frame.T_W_S.translation.head<2>() - course.goal_W).norm();
     if (!result.arrival && left_m < kArrived_m) result.arrival = now;
-    const Decision decision = navigator.Decide(*scene, robot.Localized(frame.T_W_S, now));
+    const TimedPath::Knot next = robot.Localized(frame.T_W_S, now);
+    std::optional<Decision> decision;
+    if (k % options.scans_per_decision == 0) decision = navigator.Decide(*scene, next);
     if (watch) watch({now, robot.true_W(), decision, *scene});
     result.driven.push_back({now, robot.true_W()});
     robot.Drive(now, [&](const Eigen::Vector2d& p_W, Time time) { judge.Look(p_W, time); });
-    robot.Follow(decision.path);
+    if (decision) robot.Follow(decision->path);
   }
   result.collisions = judge.collisions();
   return result;

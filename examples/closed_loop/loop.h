@@ -16,8 +16,12 @@ namespace clearway::closed_loop {
 // A plain value.
 struct LoopOptions {
   NavigatorOptions navigator;
+  // Scans come at 10 Hz. The planner is asked at a fixed rate, on the version of the newest one.
+  std::size_t scans_per_decision = 5;
   bool slam_noise = false;  // of Table I; else exact
-  std::uint64_t seed = 1;   // of the noise
+  // See FrontEnd.
+  Duration motion_over = std::chrono::milliseconds(100);
+  std::uint64_t seed = 1;  // of the noise
   Duration lasts = std::chrono::seconds(30);
 };
 
@@ -25,7 +29,7 @@ struct LoopOptions {
 struct LoopStep {
   Time time;
   Eigen::Vector2d robot_W;  // true
-  Decision decision;        // takes effect with the next scan
+  std::optional<Decision> decision;  // if it was time for one; takes effect with the next scan
   ScenePtr scene;
 };
 

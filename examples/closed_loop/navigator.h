@@ -3,8 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "clearway/collision/prepared_robot.h"
 #include "clearway/collision/state_checker.h"
@@ -16,16 +14,14 @@ namespace clearway::closed_loop {
 
 // How careful the robot is. A plain value.
 struct NavigatorOptions {
-  // Metres a second by which predictions grow, tried in turn until one leaves a way; {0}: without
-  // inflation.
-  std::vector<double> inflations_mps{0.6, 0.3, 0.15};
+  // Metres a second by which predictions grow with their age; 0: not at all.
+  double inflation_mps = 0.6;
   double padding_m = 0.1;
   // What no ray has crossed. Free: a LiDAR on the robot sees every surface before the robot is
   // there.
   UnknownPolicy unknown = UnknownPolicy::kFree;
   double max_unknown_fraction = 0;
-  Duration replan_every = std::chrono::milliseconds(500);
-  // What has to be proved of a path on each new version: this much, or to its end.
+  // What has to be proved of a path: this much of the time to come, and all the way to the goal.
   Duration proved_for = std::chrono::seconds(4);
 };
 
@@ -35,8 +31,7 @@ enum class Choice { kKept, kPlanned, kEvaded };
 struct Decision {
   TimedPath path;
   Choice choice = Choice::kKept;
-  double inflation_mps = 0;  // with which it is proved
-  Time free_until;           // by proof
+  Time free_until;  // by proof
 };
 
 // Drives to a goal and stays there, as far as the others let it. One thread.
@@ -48,22 +43,17 @@ class Navigator {
   Decision Decide(ScenePtr scene, const TimedPath::Knot& start);
 
  private:
-  struct Way {
-    TimedPath path;
-    std::size_t level;  // of inflation
-    bool to_goal;
-  };
-  CheckOptions Checks(double inflation_mps) const;
-  std::optional<Way> Plan(const TimedPath::Knot& start) const;
-  std::optional<Time> Proved(const Way& way, Time from) const;
-  Decision Evade(const TimedPath::Knot& start);
+  CheckOptions Checks() const;
+  // Up to when the way to the goal is proved free; none if that is not enough to follow it.
+  std::optional<Time> Proved(const TimedPath& way, Time from) const;
+  std::optional<TimedPath> Plan(const TimedPath::Knot& start) const;
+  Decision Evade(const TimedPath::Knot& start) const;
 
   Course course_;
   NavigatorOptions options_;
   std::shared_ptr<const PreparedRobot> robot_;
   std::shared_ptr<const StateChecker> checker_;  // of the newest version
-  std::optional<Way> way_;                       // that is followed
-  std::optional<Time> planned_at_;
+  std::optional<TimedPath> way_;                 // to the goal, that is followed
 };
 
 }  // namespace clearway::closed_loop

@@ -3,7 +3,6 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
-#include <ompl/util/Console.h>
 
 #include <vector>
 
@@ -43,7 +42,6 @@ TimedPath ToTimedPath(const og::PathGeometric& path, Time epoch) {
 
 std::optional<TimedPath> FindWay(const std::shared_ptr<const StateChecker>& checker,
                                  const WayQuestion& question, const CheckOptions& options) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const auto space = SpaceOf(question);
   Ground ground;
   ground.clearance_m = kGroundClearance_m;
