@@ -25,6 +25,12 @@ AT_LEAST = {
     "motion_vs_sampled_x": 5,
     "motion_vs_fcl_x": 100,
     "discs_solved_fraction": 1,
+    "closed_loop_goal_fraction": 0.98,
+    # So many that a tenth of them can be told from none.
+    "closed_loop_turning_collisions_without": 50,
+    "closed_loop_noise_collisions_without": 50,
+    "closed_loop_inflation_fewer_x": 10,
+    "closed_loop_inflation_goal_ratio": 0.9,
 }
 AT_MOST = {
     "publish_ms": 1,
@@ -45,6 +51,8 @@ AT_MOST = {
     "discs_first_60_ms": 48.9,
     "discs_arrival_40_s": 18.22,
     "discs_arrival_60_s": 21.60,
+    "closed_loop_collisions": 0,
+    "closed_loop_static_collisions": 0,
 }
 
 

@@ -18,7 +18,9 @@ class MedianReporter : public benchmark::ConsoleReporter {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
       failed |= run.error_occurred;
-      if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
+      const bool median = run.run_type == Run::RT_Aggregate && run.aggregate_name == "median";
+      const bool only_one = run.run_type == Run::RT_Iteration && run.repetitions == 1;
+      if (!median && !only_one) continue;
       medians[run.run_name.function_name] =
           run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
       for (const auto& [name, counter] : run.counters) {

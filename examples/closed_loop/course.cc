@@ -20,6 +20,7 @@ constexpr double kLasts_s = 30, kFastest_mps = 1.5;
 // Between whatever stands, and between that and what passes: the robot is 0.6 m wide.
 constexpr double kApart_m = 2.0, kPassageBesideWalls_m = 1.0, kBetweenObjects_m = 0.3;
 constexpr double kRoomAtStart_m = 2.0, kQuietAtStart_s = 3;
+constexpr double kStep_s = 0.1;  // of the check of all that
 
 // Random numbers that are the same with every standard library.
 class Dice {
@@ -58,6 +59,12 @@ struct Mover {
   Vector2d At(double seconds) const {
     return PoseAt(trajectory, Time(FromSeconds(seconds))).translation.head<2>();
   }
+};
+
+// What has been placed.
+struct Track {
+  double radius_m;
+  std::vector<Vector2d> points_W = {};  // every kStep_s
 };
 
 Pose OnGround(const Vector2d& p_W, double yaw_rad, double height_m) {
@@ -110,13 +117,13 @@ class CourseMaker {
 
   void AddMoving() {
     for (int i = 0; i < kTries; ++i) {
-      Mover mover = RandomMover();
-      if (!HasRoom(mover)) continue;
+      const Mover mover = RandomMover();
+      std::optional<Track> track = TrackOf(mover);
+      if (!track) continue;
       const auto id = static_cast<ObjectId>(moving_.size() + 1);
       const char* const kind = std::holds_alternative<Box>(mover.shape) ? "cart " : "person ";
-      course_.world.Add(
-          Body::Single(id, kind + std::to_string(id), mover.shape, mover.trajectory));
-      moving_.push_back(std::move(mover));
+      course_.world.Add(Body::Single(id, kind + std::to_string(id), mover.shape, mover.trajectory));
+      moving_.push_back(*std::move(track));
       return;
     }
   }
@@ -128,8 +135,7 @@ class CourseMaker {
     const Eigen::Vector3d size_m(dice_.Between(0.8, 1.8), dice_.Between(0.5, 0.9),
                                  dice_.Between(1.0, 1.6));
     const double radius_m = cart ? 0.5 * size_m.head<2>().norm() : dice_.Between(0.2, 0.35);
-    const double speed_mps =
-        dice_.Between(traffic_ == Traffic::kSteady ? 0.3 : 0.7, kFastest_mps);
+    const double speed_mps = dice_.Between(traffic_ == Traffic::kSteady ? 0.3 : 0.7, kFastest_mps);
     const double yaw_rad = dice_.Sign() * (0.5 * std::numbers::pi + dice_.Between(-0.7, 0.7));
     const double meets_x_m = dice_.Between(2.5, kLength_m - 2.5);
     const double meets_s =
@@ -172,29 +178,35 @@ class CourseMaker {
     return drive;
   }
 
-  bool HasRoom(const Mover& mover) const {
-    for (double seconds = 0; seconds <= kLasts_s; seconds += 0.1) {
-      const Vector2d p_W = mover.At(seconds);
-      if (seconds <= kQuietAtStart_s &&
-          (p_W - course_.start_W).norm() < mover.radius_m + kRoomAtStart_m) {
-        return false;
-      }
-      for (const Footprint& other : standing_) {
-        if (other.GapTo(p_W) < mover.radius_m + kPassageBesideWalls_m) return false;
-      }
-      for (const Mover& other : moving_) {
-        const double gap_m = (other.At(seconds) - p_W).norm() - other.radius_m - mover.radius_m;
-        if (gap_m < kBetweenObjects_m) return false;
-      }
+  // Where its middle is every kStep_s, if there is room for it all the way.
+  std::optional<Track> TrackOf(const Mover& mover) const {
+    Track track{.radius_m = mover.radius_m};
+    for (std::size_t i = 0; i * kStep_s <= kLasts_s; ++i) {
+      const Vector2d p_W = mover.At(i * kStep_s);
+      if (!HasRoom(mover.radius_m, p_W, i)) return std::nullopt;
+      track.points_W.push_back(p_W);
     }
-    return true;
+    return track;
+  }
+
+  bool HasRoom(double radius_m, const Vector2d& p_W, std::size_t step) const {
+    const bool at_start = (p_W - course_.start_W).norm() < radius_m + kRoomAtStart_m;
+    if (at_start && step * kStep_s <= kQuietAtStart_s) return false;
+    return std::ranges::all_of(standing_,
+                               [&](const Footprint& other) {
+                                 return other.GapTo(p_W) > radius_m + kPassageBesideWalls_m;
+                               }) &&
+           std::ranges::all_of(moving_, [&](const Track& other) {
+             return (other.points_W[step] - p_W).norm() >
+                    other.radius_m + radius_m + kBetweenObjects_m;
+           });
   }
 
   Dice dice_;
   Traffic traffic_;
   Course course_;
   std::vector<Footprint> standing_;
-  std::vector<Mover> moving_;
+  std::vector<Track> moving_;
 };
 
 }  // namespace

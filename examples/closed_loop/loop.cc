@@ -55,8 +55,7 @@ class Follower {
   TimedPath::Knot Localized(const Pose& T_W_S, Time time) {
     const Eigen::Vector2d believed_W = T_W_S.translation.head<2>();
     W_from_true_ = T_W_S.rotation;
-    behind_W_ =
-        Shortened(path_.At(time) - believed_W, kCatchUp_mps * ToSeconds(kScanPeriod));
+    behind_W_ = Shortened(path_.At(time) - believed_W, kCatchUp_mps * ToSeconds(kScanPeriod));
     return {time + kScanPeriod,
             believed_W + behind_W_ + path_.At(time + kScanPeriod) - path_.At(time)};
   }
@@ -84,6 +83,17 @@ class Follower {
 };
 
 }  // namespace
+
+LoopOptions MakeLoopOptions(bool slam_noise, bool inflation, std::uint64_t seed) {
+  LoopOptions options;
+  options.slam_noise = slam_noise;
+  options.seed = seed;
+  if (!inflation) options.navigator.inflation_mps = 0;
+  if (!slam_noise) return options;
+  options.navigator.padding_m = 0.4;
+  options.motion_over = std::chrono::seconds(1);
+  return options;
+}
 
 absl::StatusOr<LoopResult> RunLoop(const Course& course, const LoopOptions& options,
                                    SceneFeed& feed,

@@ -25,10 +25,14 @@ struct LoopOptions {
   Duration lasts = std::chrono::seconds(30);
 };
 
+// What the loop is measured with: exact SLAM, or that of Table I. Noise moves what is seen by
+// decimetres, so the robot keeps farther away, and velocities over 0.1 s would be noise alone.
+LoopOptions MakeLoopOptions(bool slam_noise, bool inflation, std::uint64_t seed);
+
 // What happened at one scan.
 struct LoopStep {
   Time time;
-  Eigen::Vector2d robot_W;  // true
+  Eigen::Vector2d robot_W;           // true
   std::optional<Decision> decision;  // if it was time for one; takes effect with the next scan
   ScenePtr scene;
 };

@@ -15,7 +15,7 @@ namespace clearway::closed_loop {
 // How careful the robot is. A plain value.
 struct NavigatorOptions {
   // Metres a second by which predictions grow with their age; 0: not at all.
-  double inflation_mps = 0.6;
+  double inflation_mps = 0.7;
   double padding_m = 0.1;
   // What no ray has crossed. Free: a LiDAR on the robot sees every surface before the robot is
   // there.

@@ -45,8 +45,7 @@ std::optional<TimedPath> FindWay(const std::shared_ptr<const StateChecker>& chec
   const auto space = SpaceOf(question);
   Ground ground;
   ground.clearance_m = kGroundClearance_m;
-  const auto mapping =
-      StateMapping::R2(checker->robot(), ground, TimeSince{question.start.time});
+  const auto mapping = StateMapping::R2(checker->robot(), ground, TimeSince{question.start.time});
   ob::ScopedState<> start(space), goal(space);
   start = std::vector<double>{question.start.p_W.x(), question.start.p_W.y(), 0};
   goal = std::vector<double>{question.goal_W.x(), question.goal_W.y(), 0};
