@@ -108,8 +108,8 @@ void Register(const Effort& effort) {
   const Effort once{quick, 1};
   Add("closed_loop_steady", once, [=](auto& state) { Steady(state, quick ? 20 : 200); });
   Add("closed_loop_inflation", once,
-      [=](auto& state) { Inflation(state, quick ? 20 : 400, quick ? 20 : 250); });
-  Add("closed_loop_both", once, [=](auto& state) { Both(state, quick ? 8 : 80); });
+      [=](auto& state) { Inflation(state, quick ? 8 : 240, quick ? 8 : 240); });
+  Add("closed_loop_both", once, [=](auto& state) { Both(state, quick ? 4 : 40); });
 }
 
 }  // namespace
