@@ -72,13 +72,15 @@ absl::Status Run(const Settings& settings) {
     if (!server.ok()) return server.status();
     feed = *std::move(server);
   }
-  ScenePtr shown;  // up to the arrival
+  ScenePtr shown;  // until it is there
   Time until;
+  bool there = false;
   const auto result = RunLoop(course, options, *feed, [&](const LoopStep& step) {
     Print(step);
-    if ((step.robot_W - course.goal_W).norm() < kArrived_m && shown != nullptr) return;
+    if (there) return;
     shown = step.scene;
     until = step.time;
+    there = (step.robot_W - course.goal_W).norm() < kArrived_m;
   });
   if (!result.ok()) return result.status();
   Print(*result, course.world);
@@ -103,7 +105,7 @@ int main(int argc, char** argv) {
   app.add_option("--server", settings.server,
                  "The server's program, to be started for the scene; without it, in this process")
       ->check(CLI::ExistingFile);
-  app.add_option("--out", settings.out, "A picture of the course, PNG");
+  app.add_option("--out", settings.out, "A picture of the way to the goal, PNG");
   CLI11_PARSE(app, argc, argv);
   const absl::Status status = clearway::closed_loop::Run(settings);
   if (!status.ok()) std::fprintf(stderr, "clearway-closed-loop: %s\n", status.ToString().c_str());

@@ -38,14 +38,18 @@ absl::Status WritePicture(const Course& course, const LoopResult& result,
   options.area_W = course.area_W;
   options.footprint_L = RobotOutline();
   options.footprint_every = kShownEvery;
+  // The picture's colours are of what is still to come; here it is the past, counted from its
+  // start.
+  const Duration shift = scene.stamp - Time();
   TopViewPath& driven = options.paths.emplace_back();
   driven.name = "robot";
   for (const TimedPath::Knot& knot : result.driven) {
-    if (knot.time <= until) driven.poses.push_back({knot.time, LinkPose(knot.p_W)});
+    if (knot.time <= until) driven.poses.push_back({knot.time + shift, LinkPose(knot.p_W)});
   }
   const demo::Truth truth = demo::TruthOf(std::make_shared<const World>(course.world), until);
   for (Time time; time <= until; time += kShownEvery) {
     for (TopViewOutline& outline : demo::OutlinesAt(truth, time)) {
+      outline.time += shift;
       options.recorded.push_back(std::move(outline));
     }
   }
