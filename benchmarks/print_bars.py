@@ -26,6 +26,12 @@ AT_LEAST = {
     "motion_vs_fcl_x": 100,
     "discs_solved_fraction": 1,
     "plan_success_fraction": 0.99,
+    "closed_loop_goal_fraction": 0.98,
+    # So many that a tenth of them can be told from none.
+    "closed_loop_turning_collisions_without": 50,
+    "closed_loop_noise_collisions_without": 50,
+    "closed_loop_inflation_fewer_x": 10,
+    "closed_loop_inflation_goal_ratio": 0.9,
 }
 AT_MOST = {
     "publish_ms": 1,
@@ -48,6 +54,8 @@ AT_MOST = {
     "discs_arrival_60_s": 21.60,
     "plan_touching": 0,
     "plan_over_optimum_x": 1.05,
+    "closed_loop_collisions": 0,
+    "closed_loop_static_collisions": 0,
 }
 
 

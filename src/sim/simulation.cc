@@ -42,7 +42,7 @@ struct Simulation::State {
   State(const State&) = delete;  // the caster points into the spec
   State& operator=(const State&) = delete;
 
-  void AddPoints(std::size_t k, Time t, Frame& frame) const;
+  void AddPoints(const Pose& T_W_S, std::size_t k, Frame& frame) const;
   bool Reports(ObjectId id, const Frame& frame) const;
 
   const SimulationSpec spec;
@@ -52,10 +52,9 @@ struct Simulation::State {
   const std::vector<ObjectErrors> object_errors;  // ascending ids
 };
 
-void Simulation::State::AddPoints(std::size_t k, Time t, Frame& frame) const {
+void Simulation::State::AddPoints(const Pose& T_W_S, std::size_t k, Frame& frame) const {
   const double max_range_m = MaxRangeM(spec.sensor);
-  const Pose T_W_S = PoseAt(spec.sensor_trajectory, t);
-  const std::vector<RayHit> hits = caster.Cast(T_W_S, t, directions_S, max_range_m);
+  const std::vector<RayHit> hits = caster.Cast(T_W_S, frame.stamp, directions_S, max_range_m);
   Random random(spec.seed, kRangeStream, k);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const bool hit = hits[i].range_m <= max_range_m;
@@ -98,13 +97,15 @@ std::optional<Pose> Simulation::ReportedT_W_B(ObjectId id, std::size_t k) const 
   return std::nullopt;
 }
 
-Frame Simulation::MakeFrame(std::size_t k) const {
+Frame Simulation::MakeFrame(std::size_t k) const { return MakeFrameFrom(TrueT_W_S(k), k); }
+
+Frame Simulation::MakeFrameFrom(const Pose& T_W_S, std::size_t k) const {
   Frame frame;
   frame.sensor_id = spec().name;
   frame.sequence = k;
   frame.stamp = StampOf(k);
-  frame.T_W_S = ReportedT_W_S(k);
-  state_->AddPoints(k, frame.stamp, frame);
+  frame.T_W_S = T_W_S * state_->sensor_errors[k];
+  state_->AddPoints(T_W_S, k, frame);
   if (spec().report == ObjectReport::kNothing) return frame;
   for (const ObjectErrors& object : state_->object_errors) {
     if (!state_->Reports(object.id, frame)) continue;

@@ -188,6 +188,18 @@ TEST(SimulationTest, FramesCarryTheReportedPosesAndMotions) {
   }
 }
 
+TEST(SimulationTest, FramesFromAnotherPoseAreThoseOfASensorThatStandsThere) {
+  const Simulation dut = Small(Noisy(2));
+  const Pose T_W_S = dut.TrueT_W_S(0) * Pose::Translation(0.3, -0.2, 0.1);
+  SimulationSpec spec = dut.spec();
+  spec.sensor_trajectory = FixedPose{T_W_S};
+  const Simulation stands(spec);
+  for (const std::size_t k : {0u, 3u}) {
+    EXPECT_TRUE(SameBytes(dut.MakeFrameFrom(T_W_S, k), stands.MakeFrame(k))) << k;
+    EXPECT_TRUE(SameBytes(dut.MakeFrameFrom(dut.TrueT_W_S(k), k), dut.MakeFrame(k))) << k;
+  }
+}
+
 TEST(SimulationTest, SlamNoiseLeavesThePointsInTheSensorFrameAlone) {
   const Frame exact = Small().MakeFrame(8);
   const Frame noisy = Small({.noise = SlamNoise::TableOne()}).MakeFrame(8);

@@ -80,6 +80,9 @@ class Simulation {
 
   // Depends on the spec and k alone, in whatever order frames are made. k < frame_count().
   Frame MakeFrame(std::size_t k) const;
+  // The same with the sensor truly at T_W_S instead of on its trajectory: for a sensor whose way is
+  // decided as it goes. The frame reports T_W_S with frame k's error.
+  Frame MakeFrameFrom(const Pose& T_W_S, std::size_t k) const;
 
   // Stays valid when this object is gone. Reading past the end is OUT_OF_RANGE.
   FrameSource Frames() const;
