@@ -108,7 +108,7 @@ void Register(const Effort& effort) {
   const Effort once{quick, 1};
   Add("closed_loop_steady", once, [=](auto& state) { Steady(state, quick ? 20 : 200); });
   Add("closed_loop_inflation", once,
-      [=](auto& state) { Inflation(state, quick ? 8 : 240, quick ? 8 : 240); });
+      [=](auto& state) { Inflation(state, quick ? 8 : 320, quick ? 8 : 240); });
   Add("closed_loop_both", once, [=](auto& state) { Both(state, quick ? 4 : 40); });
 }
 

@@ -88,10 +88,12 @@ LoopOptions MakeLoopOptions(bool slam_noise, bool inflation, std::uint64_t seed)
   LoopOptions options;
   options.slam_noise = slam_noise;
   options.seed = seed;
+  if (slam_noise) {
+    options.navigator.padding_m = 0.4;
+    options.navigator.inflation_mps = 1.0;
+    options.motion_over = std::chrono::seconds(1);
+  }
   if (!inflation) options.navigator.inflation_mps = 0;
-  if (!slam_noise) return options;
-  options.navigator.padding_m = 0.4;
-  options.motion_over = std::chrono::seconds(1);
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct Settings {
   std::uint64_t seed = 1;
   bool turning = false, noise = false;
-  double inflation_mps = NavigatorOptions().inflation_mps;
+  std::optional<double> inflation_mps;  // by default what suits the SLAM
   std::string server, out;
 };
 
@@ -65,7 +65,7 @@ absl::Status Run(const Settings& settings) {
   const Course course =
       MakeCourse(settings.seed, settings.turning ? Traffic::kTurning : Traffic::kSteady);
   LoopOptions options = MakeLoopOptions(settings.noise, true, settings.seed);
-  options.navigator.inflation_mps = settings.inflation_mps;
+  if (settings.inflation_mps) options.navigator.inflation_mps = *settings.inflation_mps;
   std::unique_ptr<SceneFeed> feed = std::make_unique<OwnScene>();
   if (!settings.server.empty()) {
     auto server = ServerScene::Start(settings.server);
@@ -100,7 +100,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", settings.seed, "Of the world and the noise");
   app.add_flag("--turning", settings.turning, "Objects turn, stop and start again");
   app.add_flag("--noise", settings.noise, "SLAM errs as in Table I of DynORecon");
-  app.add_option("--inflation", settings.inflation_mps, "Metres a second by which predictions grow")
+  app.add_option("--inflation", settings.inflation_mps,
+                 "Metres a second by which predictions grow: 0.7, with --noise 1, unless given")
       ->check(CLI::Range(0.0, 2.0));
   app.add_option("--server", settings.server,
                  "The server's program, to be started for the scene; without it, in this process")
