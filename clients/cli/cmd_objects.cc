@@ -1,4 +1,4 @@
-// clearway objects: the moving objects of the newest scene.
+// clearway objects: the moving objects of the newest scene; given ones come and go with it too.
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -6,6 +6,7 @@
 #include "clearway/report/table.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/scenario_file.h"
 #include "cli/server_flags.h"
 #include "cli/text.h"
 #include "cli/values.h"
@@ -16,11 +17,16 @@ namespace {
 constexpr char kExamples[] =
     "  clearway objects\n"
     "  clearway objects --time +1.5          where they will be 1.5 s after the newest frame\n"
+    "  clearway objects --add doors.json     objects of known shape, as in a scenario's "
+    "\"objects\"\n"
+    "  clearway objects --remove 7,8         such objects\n"
     "  clearway objects --json | jq '.objects[] | {id, speed_mps}'";
 
 struct Flags {
   ServerFlags server;
   std::optional<TimeArgument> time;
+  std::string add;
+  std::vector<ObjectId> remove;
   bool json = false;
 };
 
@@ -111,10 +117,25 @@ void PrintText(std::ostream& out, const ObjectList& list, const std::vector<Obje
   out << table.ToString();
 }
 
+// Whatever of it fails, what came before is done.
+absl::Status Change(const SceneClient& client, const Flags& flags) {
+  if (!flags.remove.empty()) {
+    if (auto removed = client.RemoveObjects(flags.remove); !removed.ok()) return removed.status();
+  }
+  if (flags.add.empty()) return absl::OkStatus();
+  auto objects = LoadObjects(flags.add);
+  if (!objects.ok()) return objects.status();
+  const auto status = client.GetStatus();
+  if (!status.ok()) return status.status();
+  Delay(status->stamp - Time(), *objects);
+  return client.AddObjects(*objects).status();
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
   const SceneClient client(*connection);
+  if (auto status = Change(client, flags); !status.ok()) return status;
   const auto list = client.ListObjects();
   if (!list.ok()) return list.status();
   std::vector<ObjectRow> rows;
@@ -147,6 +168,10 @@ void AddObjects(Cli& cli) {
             "Also where they are then: +seconds after the\nnewest stamp, or seconds of sensor time")
       ->type_name("TIME");
   command->add_flag("--json", flags->json, "Print JSON");
+  command->add_option("--add", flags->add, "First add the given objects of this JSON file");
+  command->add_option("--remove", flags->remove, "First remove these given objects")
+      ->delimiter(',')
+      ->type_name("ID");
   AddServerFlags(command, &flags->server);
 }
 

@@ -49,6 +49,12 @@ class BorrowedObjects {
   absl::StatusOr<std::uint64_t> Add(const std::vector<GivenObject>& objects) {
     if (objects.empty()) return 0;
     const auto added = client_.AddObjects(objects);
+    if (absl::IsAlreadyExists(added.status())) {
+      return absl::AlreadyExistsError(
+          absl::StrCat(added.status().message(),
+                       "; if a plan that was interrupted left it there, 'clearway objects --remove "
+                       "ID' takes it away"));
+    }
     if (!added.ok()) return added.status();
     for (const GivenObject& object : objects) ids_.push_back(object.id);
     return added->version;
@@ -136,18 +142,18 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
-  auto loaded = LoadScenario(flags.file);
-  if (!loaded.ok()) return loaded.status();
+  auto scenario = LoadScenario(flags.file);
+  if (!scenario.ok()) return scenario.status();
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
   if (!status.ok()) return status.status();
-  const Scenario scenario = Later(*std::move(loaded), status->stamp - Time());
+  Delay(status->stamp - Time(), *scenario);
   BorrowedObjects borrowed(client);
-  const auto version = borrowed.Add(scenario.objects);
+  const auto version = borrowed.Add(scenario->objects);
   if (!version.ok()) return version.status();
-  const auto planner = RemotePlanner::For(*connection, scenario.robot);
+  const auto planner = RemotePlanner::For(*connection, scenario->robot);
   if (!planner.ok()) return planner.status();
   std::vector<Found> plans;
   const auto begin = std::chrono::steady_clock::now();
@@ -157,17 +163,17 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     plans.push_back({plan, after_s});
     if (!flags.json) {
       terminal.out << absl::StrFormat("%.3f s: arrives after %.3f s\n", after_s,
-                                      ArrivalOf(plan, scenario.task));
+                                      ArrivalOf(plan, scenario->task));
     }
     return !flags.first;
   };
   const auto outcome =
-      (*planner)->Plan(scenario.task, FromSeconds(flags.budget_s), found, {*version, ""});
+      (*planner)->Plan(scenario->task, FromSeconds(flags.budget_s), found, {*version, ""});
   if (!outcome.ok()) return outcome.status();
   if (flags.json) {
-    PrintJson(terminal.out, plans, *outcome, scenario.task);
+    PrintJson(terminal.out, plans, *outcome, scenario->task);
   } else if (!plans.empty()) {
-    PrintText(terminal.out, plans.back().plan, scenario.task);
+    PrintText(terminal.out, plans.back().plan, scenario->task);
   }
   return StatusOf(*outcome, flags);
 }

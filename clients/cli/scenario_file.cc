@@ -129,13 +129,16 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
 
 }  // namespace
 
-Scenario Later(Scenario scenario, Duration by) {
-  scenario.task.start_time += by;
-  for (GivenObject& object : scenario.objects) {
+void Delay(Duration by, std::vector<GivenObject>& objects) {
+  for (GivenObject& object : objects) {
     object.pose.stamp += by;
     for (StampedPose& pose : object.future) pose.stamp += by;
   }
-  return scenario;
+}
+
+void Delay(Duration by, Scenario& scenario) {
+  scenario.task.start_time += by;
+  Delay(by, scenario.objects);
 }
 
 absl::StatusOr<Scenario> ParseScenario(const std::filesystem::path& name, const std::string& text) {
@@ -150,6 +153,20 @@ absl::StatusOr<Scenario> LoadScenario(const std::filesystem::path& file) {
   const auto text = ReadTextFile(file, "scenario");
   if (!text.ok()) return text.status();
   return ParseScenario(file, *text);
+}
+
+absl::StatusOr<std::vector<GivenObject>> LoadObjects(const std::filesystem::path& file) {
+  const auto text = ReadTextFile(file, "file of objects");
+  if (!text.ok()) return text.status();
+  const auto json = ParseJson(*text);
+  if (!json.ok()) return InContext(file.string(), json.status());
+  const auto fields = JsonFields::Of(*json, "", {"objects"});
+  if (!fields.ok()) return InContext(file.string(), fields.status());
+  const auto list = fields->List("objects");
+  if (!list.ok()) return InContext(file.string(), list.status());
+  auto objects = ParseGivenObjects(**list, "objects", file.parent_path());
+  if (!objects.ok()) return InContext(file.string(), objects.status());
+  return objects;
 }
 
 }  // namespace clearway::cli

@@ -12,7 +12,7 @@
 
 namespace clearway::cli {
 
-// All times count from Time(): see Later. A plain value.
+// All times count from Time(): see Delay. A plain value.
 struct Scenario {
   std::string name;
   Robot robot;
@@ -22,12 +22,16 @@ struct Scenario {
   std::optional<double> optimum_s;  // no plan arrives earlier, in seconds after the start
 };
 
-// The same, `by` later.
-Scenario Later(Scenario scenario, Duration by);
+// All times `by` later.
+void Delay(Duration by, std::vector<GivenObject>& objects);
+void Delay(Duration by, Scenario& scenario);
 
 // INVALID_ARGUMENT names the field, as in "doors.json: objects[2].future[0].t_s: missing";
 // NOT_FOUND if there is no such file. Files that it names are looked for next to it.
 absl::StatusOr<Scenario> ParseScenario(const std::filesystem::path& name, const std::string& text);
 absl::StatusOr<Scenario> LoadScenario(const std::filesystem::path& file);
+
+// {"objects": [...]} alone, as they stand in a scenario.
+absl::StatusOr<std::vector<GivenObject>> LoadObjects(const std::filesystem::path& file);
 
 }  // namespace clearway::cli

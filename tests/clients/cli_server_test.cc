@@ -120,6 +120,25 @@ TEST_F(CliServer, NoPlanSaysWhy) {
   EXPECT_THAT(missing.err, HasSubstr("no such scenario"));
 }
 
+TEST_F(CliServer, GivenObjectsComeAndGo) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "doors.json").string();
+  std::ofstream(file) << R"({"objects": [
+    {"id": 7, "shape": {"type": "sphere", "radius_m": 1}, "velocity_mps": [1, 0, 0]},
+    {"id": 8, "shape": {"type": "box", "size_m": [1, 1, 1]}, "pose": {"position_m": [5, 0, 0]}}]})";
+  const json added = Ask({"objects", "--add", file})["objects"];
+  ASSERT_EQ(added.size(), 2u);
+  EXPECT_EQ(added[0]["id"], 7);
+  EXPECT_EQ(added[0]["given"], true);
+  const Finished again = Clearway({"objects", "--add", file});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.err, HasSubstr("has an object 7 already"));
+  const json left = Ask({"objects", "--remove", "7"})["objects"];
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(left[0]["id"], 8);
+  EXPECT_EQ(Clearway({"objects", "--remove", "7"}).exit_code, 1);
+}
+
 TEST_F(CliServer, ReplayIsAppliedOnce) {
   const json first = Replay();
   EXPECT_EQ(first["frames"], kFrames);

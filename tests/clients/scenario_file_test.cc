@@ -55,10 +55,11 @@ TEST(ScenarioFile, ReadsAllOfIt) {
   EXPECT_EQ(dut->objects[1].velocity_O->linear, Eigen::Vector3d(1, 0, 0));
 }
 
-TEST(ScenarioFile, LaterMovesAllTimes) {
-  const auto scenario = ParseScenario("s.json", kDoor);
+TEST(ScenarioFile, DelayMovesAllTimes) {
+  auto scenario = ParseScenario("s.json", kDoor);
   ASSERT_TRUE(scenario.ok());
-  const Scenario dut = Later(*scenario, std::chrono::seconds(100));
+  Scenario& dut = *scenario;
+  Delay(std::chrono::seconds(100), dut);
   EXPECT_EQ(dut.task.start_time, Time() + std::chrono::seconds(102));
   EXPECT_EQ(dut.objects[0].pose.stamp, Time() + std::chrono::seconds(100));
   EXPECT_EQ(dut.objects[0].future[0].stamp, Time() + std::chrono::seconds(110));
