@@ -34,6 +34,13 @@ class Work {
     return query_.CheckState(setup_->getProblemDefinition()->getStartState(0));
   }
   absl::Status first_error() const { return query_.first_error(); }
+  // The goal is where the start is: nothing has to be driven.
+  bool IsThere() const {
+    const auto& space = *setup_->getStateSpace()->as<SpaceTimeStateSpace>();
+    const ob::State* const start = setup_->getProblemDefinition()->getStartState(0);
+    return space.space()->equalStates(SpaceTimeStateSpace::SpacePart(start),
+                                      setup_->getGoal()->as<GoalPoseBefore>()->goal_part());
+  }
 
   // Whether anything was found; each plan goes to `found`.
   bool Plan(const ob::PlannerTerminationCondition& until,
@@ -129,9 +136,16 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   PlanOutcome outcome;
   outcome.version = checker->version();
   outcome.stamp = checker->stamp();
-  if (const StateAnswer start = work.AtStart(); start.status != SpaceStatus::kFree) {
+  const StateAnswer start = work.AtStart();
+  if (auto error = work.first_error(); !error.ok()) return error;
+  if (start.status != SpaceStatus::kFree) {
     outcome.status = PlanStatus::kStartBlocked;
     outcome.blocker = start;
+    return outcome;
+  }
+  if (work.IsThere()) {
+    outcome.status = PlanStatus::kFound;
+    found({{task.start_time}, {task.start}, {}});
     return outcome;
   }
   const ob::PlannerTerminationCondition until(

@@ -71,7 +71,7 @@ struct Plan {
   std::vector<Time> times;
   std::vector<std::vector<double>> configurations;  // as many
   // The same as one motion of the robot's links, which any StateChecker can prove again, of this
-  // scene version or of a newer one.
+  // scene version or of a newer one. None if the goal is where the start is.
   MotionBatch motion;
 };
 
