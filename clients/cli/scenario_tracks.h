@@ -1,7 +1,7 @@
-// Recorded people as the objects of a scenario.
+// What was recorded as the objects of a scenario.
 #pragma once
 
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -10,9 +10,8 @@
 
 namespace clearway::cli {
 
-// {"format": "ucy", "file": ..., "from_s": ..., "for_s": ..., "radius_m": ..., "height_m": ...}:
-// the people of an annotation file (frame, id, x, z, y, vx, vz, vy; 25 frames a second) who are
-// seen between from_s and from_s + for_s of it, as cylinders with futures; Time() is from_s, and
+// {"format": ..., "file": ..., "from_s": ..., "for_s": ..., and the format's own}: those who are
+// seen between from_s and from_s + for_s of the recording, with futures; Time() is from_s, and
 // their ids begin at `first_id`. Before they are seen first and after they are seen last they go
 // straight. The file is looked for in the folder that the environment's CLEARWAY_DATA names:
 // NOT_FOUND, saying so, if it is not there.
