@@ -1,5 +1,6 @@
 // The scenarios of examples/scenarios: SafeIntervalPlanner and OMPL's RRT, RRTConnect and RRT* over
-// the same space, checks and time. Each plan is judged by the file's own motions.
+// the same space, checks and time. Each plan is judged by the file's own motions. One alone:
+// --benchmark_filter=highway --out /tmp/alone, which leaves the summary of all as it is.
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
@@ -7,6 +8,7 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -157,32 +159,22 @@ void RunUnsolvable(benchmark::State& state, const cli::Scenario& scenario,
               goal ? "the goal is taken" : "none was found");
 }
 
-void Scenarios(benchmark::State& state, const RunCounts& counts) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot / "examples/scenarios")) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
+// One scenario; the counters of all together are of those that ran before it, too.
+void RunScenario(benchmark::State& state, const cli::Scenario& scenario, const std::string& file,
+                 const RunCounts& counts, Worst& worst) {
   for (auto _ : state) {
-    Worst worst;
-    for (const auto& path : files) {
-      const auto scenario = cli::LoadScenario(path);
-      if (absl::IsNotFound(scenario.status())) {  // of a recording
-        std::printf("%s\n", scenario.status().ToString().c_str());
-        continue;
-      }
-      if (!scenario.ok()) return state.SkipWithError(scenario.status().ToString().c_str());
-      if (scenario->solvable) {
-        RunSolvable(state, *scenario, path.stem().string(), counts, worst);
-      } else {
-        RunUnsolvable(state, *scenario, path.stem().string());
-      }
+    if (scenario.solvable) {
+      RunSolvable(state, scenario, file, counts, worst);
+    } else {
+      RunUnsolvable(state, scenario, file);
     }
-    state.counters["plan_success_fraction"] = worst.solved_fraction;
-    state.counters["plan_touching"] = worst.touching;
-    state.counters["plan_vs_rrtconnect_x"] = worst.vs_rrtconnect_x;
-    state.counters["plan_over_optimum_x"] = worst.over_optimum_x;
   }
+  state.counters["plan_success_fraction"] = worst.solved_fraction;
+  state.counters["plan_touching"] = worst.touching;
+  if (std::isfinite(worst.vs_rrtconnect_x)) {
+    state.counters["plan_vs_rrtconnect_x"] = worst.vs_rrtconnect_x;
+  }
+  state.counters["plan_over_optimum_x"] = worst.over_optimum_x;
 }
 
 void Register(const Effort& effort) {
@@ -192,7 +184,24 @@ void Register(const Effort& effort) {
   const RunCounts counts = effort.quick ? RunCounts{5, 2} : RunCounts{100, 20};
   Effort once = effort;
   once.repetitions = 1;
-  Add("scenarios", once, [=](auto& state) { Scenarios(state, counts); });
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot / "examples/scenarios")) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  const auto worst = std::make_shared<Worst>();
+  for (const auto& path : files) {
+    const std::string file = path.stem().string();
+    const auto scenario = cli::LoadScenario(path);
+    if (absl::IsNotFound(scenario.status())) {  // of a recording
+      std::printf("%s\n", scenario.status().ToString().c_str());
+      continue;
+    }
+    Add("scenarios/" + file, once, [=](auto& state) {
+      if (!scenario.ok()) return state.SkipWithError(scenario.status().ToString().c_str());
+      RunScenario(state, *scenario, file, counts, *worst);
+    });
+  }
 }
 
 }  // namespace
