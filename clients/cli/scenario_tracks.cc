@@ -24,7 +24,8 @@ absl::StatusOr<std::vector<Track>> ReadTracks(const JsonFields& fields, const Js
   if (!format.ok()) return format.status();
   if (*format == "ucy") return ReadUcyTracks(value, path);
   if (*format == "commonroad") return ReadCommonRoadTracks(value, path);
-  return fields.Error("format", "expected ucy or commonroad");
+  if (*format == "boxes") return ReadBoxTracks(value, path);
+  return fields.Error("format", "expected ucy, commonroad or boxes");
 }
 
 }  // namespace
@@ -33,7 +34,8 @@ absl::StatusOr<std::vector<GivenObject>> ParseTracks(const Json& value, const st
                                                      ObjectId first_id) {
   // What else there may be, each format knows.
   const auto fields = JsonFields::Of(
-      value, path, {"format", "file", "from_s", "for_s", "radius_m", "height_m", "road_edges"});
+      value, path,
+      {"format", "file", "from_s", "for_s", "radius_m", "height_m", "road_edges", "poses"});
   if (!fields.ok()) return fields.status();
   const auto window = ParseWindow(*fields);
   if (!window.ok()) return window.status();

@@ -35,6 +35,7 @@ struct TrackWindow {
 // Each reads what the fields of a scenario's "tracks" name; a field that is not of the format is an
 // error. The formats are in docs/formats.md.
 absl::StatusOr<std::vector<Track>> ReadUcyTracks(const Json& value, const std::string& path);
+absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::string& path);
 absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value, const std::string& path);
 
 // The field "file", in the folder that the environment's CLEARWAY_DATA names: NOT_FOUND, saying so,

@@ -2,9 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <fstream>
+#include <optional>
 
+#include "support/data_variable.h"
 #include "support/temporary_folder.h"
 
 namespace clearway::cli {
@@ -110,12 +111,12 @@ TEST(ScenarioFile, RecordedPeopleGoStraightBeforeAndAfterTheyAreSeen) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "people.txt")
       << "200 7 1 0 5 1 0 0\n300 7 5 0 5 2 0 0\n\n10 8 0 0 0 0 0 0\n";
-  setenv("CLEARWAY_DATA", folder.path().c_str(), 1);
+  std::optional<DataVariable> data(folder.path());
   const std::string text = Spoilt(
       "\"objects\"", R"("tracks": {"format": "ucy", "file": "people.txt", "from_s": 6, "for_s": 10,
                         "radius_m": 0.3, "height_m": 1.8}, "objects")");
   const auto scenario = ParseScenario("s.json", text);
-  unsetenv("CLEARWAY_DATA");
+  data.reset();
   ASSERT_TRUE(scenario.ok()) << scenario.status();
   ASSERT_EQ(scenario->objects.size(), 3u);
   const GivenObject& dut = scenario->objects[2];

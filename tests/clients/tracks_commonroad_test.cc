@@ -1,11 +1,11 @@
 // Scenarios of CommonRoad files: on small files in the published format, and on a real one.
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "cli/scenario_tracks.h"
 #include "support/data_folder.h"
+#include "support/data_variable.h"
 #include "support/temporary_folder.h"
 
 namespace clearway::cli {
@@ -43,15 +43,6 @@ constexpr char kRoad[] = R"(<?xml version="1.0"?>
 // A folder of recordings with one file of that text.
 class CommonRoadTracks : public testing::Test {
  protected:
-  void SetUp() override { setenv("CLEARWAY_DATA", folder_.path().c_str(), 1); }
-  void TearDown() override {
-    if (before_) {
-      setenv("CLEARWAY_DATA", before_->c_str(), 1);
-    } else {
-      unsetenv("CLEARWAY_DATA");
-    }
-  }
-
   absl::StatusOr<std::vector<GivenObject>> Parse(const std::string& text,
                                                  const std::string& more = "") {
     std::ofstream(folder_.path() / "road.xml") << text;
@@ -65,13 +56,8 @@ class CommonRoadTracks : public testing::Test {
   }
 
  private:
-  static std::optional<std::string> Variable() {
-    const char* const value = std::getenv("CLEARWAY_DATA");
-    return value == nullptr ? std::nullopt : std::optional<std::string>(value);
-  }
-
   const TemporaryFolder folder_;
-  const std::optional<std::string> before_ = Variable();
+  const DataVariable data_{folder_.path()};
 };
 
 // kRoad with one text in the place of another.
@@ -198,7 +184,7 @@ TEST_F(CommonRoadTracks, FilesCutOffOrDeepAreErrors) {
 TEST(RealCommonRoadTracks, ReadsAHighway) {
   const auto folder = DataPath("commonroad");
   if (!folder) GTEST_SKIP();
-  setenv("CLEARWAY_DATA", folder->parent_path().c_str(), 0);
+  const DataVariable data(folder->parent_path());
   const auto dut = ParseTracks(
       Json::parse(R"({"format": "commonroad", "file": "commonroad/USA_US101-4_1_T-1.xml",
                       "for_s": 10, "height_m": 1.5, "road_edges": true})"),

@@ -1,0 +1,63 @@
+// The labelled boxes of LiDAR folders.
+#include <algorithm>
+#include <map>
+
+#include "clearway/io/lidar_folder.h"
+#include "cli/open_source.h"
+#include "cli/tracks.h"
+
+namespace clearway::cli {
+namespace {
+
+// Boxes are labelled with an error of their own, which over a second is small.
+constexpr double kVelocityOver_s = 1;
+
+absl::StatusOr<LidarFolder> OpenTables(const JsonFields& fields) {
+  SourceFlags flags;
+  if (fields.Has("poses")) {
+    const auto poses = fields.Text("poses");
+    if (!poses.ok()) return poses.status();
+    if (*poses != "icp" && *poses != "oxts" && *poses != "plain") {
+      return fields.Error("poses", "expected icp, oxts or plain");
+    }
+    flags.poses = *poses;
+  }
+  const auto folder = RecordedFile(fields);
+  if (!folder.ok()) return folder.status();
+  constexpr bool kAllowMissingPoints = true;
+  return OpenFolder(folder->string(), flags, kAllowMissingPoints);
+}
+
+// When each frame was, in seconds since the first.
+std::map<int, double> SecondsOf(const std::vector<RecordedPose>& poses) {
+  std::map<int, double> seconds;
+  for (const RecordedPose& pose : poses) {
+    seconds[pose.frame] = ToSeconds(pose.stamp - poses.front().stamp);
+  }
+  return seconds;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::string& path) {
+  const auto fields = JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "poses"});
+  if (!fields.ok()) return fields.status();
+  const auto folder = OpenTables(*fields);
+  if (!folder.ok()) return folder.status();
+  const std::map<int, double> seconds = SecondsOf(folder->poses);
+  std::map<ObjectId, Track> by_id;
+  for (const RecordedBox& box : folder->boxes) {
+    Track& track = by_id.try_emplace(box.id, Track{Box{}, {}}).first->second;
+    Box& largest = std::get<Box>(track.shape);
+    largest.size_m = largest.size_m.cwiseMax(box.size_m);
+    track.seen.push_back({seconds.at(box.frame), box.T_W_B});
+  }
+  std::vector<Track> tracks;
+  for (auto& [id, track] : by_id) {
+    GuessVelocities(kVelocityOver_s, track);
+    tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
+}  // namespace clearway::cli
