@@ -27,6 +27,7 @@ AT_LEAST = {
     "discs_solved_fraction": 1,
     "plan_success_fraction": 0.99,
     "closed_loop_goal_fraction": 0.98,
+    "drive_start_frames": 20,
     # So many that a tenth of them can be told from none.
     "closed_loop_turning_collisions_without": 50,
     "closed_loop_noise_collisions_without": 50,
@@ -56,6 +57,7 @@ AT_MOST = {
     "plan_over_optimum_x": 1.05,
     "closed_loop_collisions": 0,
     "closed_loop_static_collisions": 0,
+    "drive_touching": 0,
 }
 
 

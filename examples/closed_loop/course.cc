@@ -76,9 +76,9 @@ Pose OnGround(const Vector2d& p_W, double yaw_rad, double height_m) {
 class CourseMaker {
  public:
   CourseMaker(std::uint64_t seed, Traffic traffic) : dice_(seed, traffic), traffic_(traffic) {
-    course_.goal_W = {kLength_m, 0};
-    course_.area_W = {{-kBehindEnds_m, -kHalfWidth_m, -1},
-                      {kLength_m + kBehindEnds_m, kHalfWidth_m, 3}};
+    course_.errand.goal_W = {kLength_m, 0};
+    course_.errand.area_W = {{-kBehindEnds_m, -kHalfWidth_m, -1},
+                             {kLength_m + kBehindEnds_m, kHalfWidth_m, 3}};
   }
 
   Course Make() {
@@ -190,7 +190,7 @@ class CourseMaker {
   }
 
   bool HasRoom(double radius_m, const Vector2d& p_W, std::size_t step) const {
-    const bool at_start = (p_W - course_.start_W).norm() < radius_m + kRoomAtStart_m;
+    const bool at_start = (p_W - course_.errand.start_W).norm() < radius_m + kRoomAtStart_m;
     if (at_start && step * kStep_s <= kQuietAtStart_s) return false;
     return std::ranges::all_of(standing_,
                                [&](const Footprint& other) {

@@ -1,10 +1,10 @@
 // Worlds for a robot to cross, made of a seed.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 
 #include "clearway/sim/world.h"
+#include "closed_loop/robot.h"
 
 namespace clearway::closed_loop {
 
@@ -17,9 +17,7 @@ enum class Traffic {
 // start and goal and do not look out for the robot. A plain value.
 struct Course {
   World world;  // from time 0 on
-  Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
-  Eigen::Vector2d goal_W = Eigen::Vector2d::Zero();
-  Aabb area_W;  // where the robot may go
+  Errand errand;
 };
 
 // The same seed makes the same course. No object is near the start in the first seconds, none

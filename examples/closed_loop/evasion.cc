@@ -9,7 +9,7 @@
 namespace clearway::closed_loop {
 namespace {
 
-std::vector<TimedPath> WaysOut(const TimedPath::Knot& start, const Aabb& area_W) {
+std::vector<TimedPath> WaysOut(const TimedPath::Knot& start, const Errand& errand) {
   constexpr int kDirections = 24;
   constexpr double kLengths_m[] = {0.4, 1, 2, 4};
   std::vector<TimedPath> ways{TimedPath(start.time, start.p_W)};
@@ -18,8 +18,8 @@ std::vector<TimedPath> WaysOut(const TimedPath::Knot& start, const Aabb& area_W)
     for (const double length_m : kLengths_m) {
       const Eigen::Vector2d end_W =
           start.p_W + length_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
-      if (!area_W.Contains({end_W.x(), end_W.y(), 0})) continue;
-      const Time arrival = start.time + FromSeconds(length_m / kRobotSpeed_mps);
+      if (!errand.area_W.Contains({end_W.x(), end_W.y(), 0})) continue;
+      const Time arrival = start.time + FromSeconds(length_m / errand.carrier.max_speed_mps);
       ways.push_back(TimedPath({start, {arrival, end_W}}));
     }
   }
@@ -28,12 +28,12 @@ std::vector<TimedPath> WaysOut(const TimedPath::Knot& start, const Aabb& area_W)
 
 }  // namespace
 
-Evasion FindEvasion(const StateChecker& checker, const TimedPath::Knot& start,
-                    const Eigen::Vector2d& goal_W, const Aabb& area_W, Time until,
-                    const CheckOptions& options) {
-  const std::vector<TimedPath> ways = WaysOut(start, area_W);
-  const std::vector<Time> free_until = FreeUntil(checker, ways, start.time, until, options);
-  const auto left_m = [&](std::size_t i) { return (goal_W - ways[i].end_W()).norm(); };
+Evasion FindEvasion(const StateChecker& checker, const TimedPath::Knot& start, const Errand& errand,
+                    Time until, const CheckOptions& options) {
+  const std::vector<TimedPath> ways = WaysOut(start, errand);
+  const std::vector<Time> free_until =
+      FreeUntil(checker, errand.carrier, ways, start.time, until, options);
+  const auto left_m = [&](std::size_t i) { return (errand.goal_W - ways[i].end_W()).norm(); };
   std::size_t best = 0;
   for (std::size_t i = 1; i < ways.size(); ++i) {
     const bool longer = free_until[i] > free_until[best];

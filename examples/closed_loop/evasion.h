@@ -14,9 +14,8 @@ struct Evasion {
 
 // Standing still, and straight ways of several lengths in all directions at full speed to stand
 // still at their ends: the one that is proved free the longest, up to `until`; of several, the one
-// that ends nearest to the goal. Ends lie in `area_W`.
-Evasion FindEvasion(const StateChecker& checker, const TimedPath::Knot& start,
-                    const Eigen::Vector2d& goal_W, const Aabb& area_W, Time until,
-                    const CheckOptions& options);
+// that ends nearest to the goal. Ends lie in the errand's area.
+Evasion FindEvasion(const StateChecker& checker, const TimedPath::Knot& start, const Errand& errand,
+                    Time until, const CheckOptions& options);
 
 }  // namespace clearway::closed_loop

@@ -1,10 +1,8 @@
 #include "closed_loop/judge.h"
 
-#include "closed_loop/robot.h"
-
 namespace clearway::closed_loop {
 
-Judge::Judge(const World& world) {
+Judge::Judge(const World& world, const Carrier& carrier) : carrier_(carrier) {
   for (const Body& body : world.bodies()) bodies_.emplace_back(std::vector<Body>{body});
 }
 
@@ -13,10 +11,10 @@ void Judge::Saw(std::span<const ObjectId> labels, Time time) {
 }
 
 void Judge::Look(const Eigen::Vector2d& robot_W, Time time) {
-  const Shape shape = Cylinder{kRobotRadius_m, kRobotHeight_m};
   for (const World& body : bodies_) {
     const ObjectId id = body.bodies()[0].id;
-    if (touched_.contains(id) || !body.Touched(shape, LinkPose(robot_W), time)) continue;
+    if (touched_.contains(id) || !body.Touched(carrier_.body, carrier_.LinkPose(robot_W), time))
+      continue;
     touched_.insert(id);
     Collision& collision = collisions_.emplace_back(Collision{id, time, robot_W});
     if (const auto seen = first_seen_.find(id); seen != first_seen_.end()) {

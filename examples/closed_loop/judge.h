@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clearway/sim/world.h"
+#include "closed_loop/robot.h"
 
 namespace clearway::closed_loop {
 
@@ -28,7 +29,7 @@ struct Collision {
 // object counts once. One thread; the world must outlive it.
 class Judge {
  public:
-  explicit Judge(const World& world);
+  Judge(const World& world, const Carrier& carrier);
 
   // The labels of the points of a scan.
   void Saw(std::span<const ObjectId> labels, Time time);
@@ -38,6 +39,7 @@ class Judge {
   const std::vector<Collision>& collisions() const { return collisions_; }
 
  private:
+  Carrier carrier_;
   std::vector<World> bodies_;  // one body each
   std::map<ObjectId, Time> first_seen_;
   std::set<ObjectId> touched_;

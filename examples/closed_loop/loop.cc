@@ -38,6 +38,12 @@ Simulation SimulationOf(const Course& course, const LoopOptions& options) {
   return Simulation(std::move(spec));
 }
 
+// T_W_S of the LiDAR on the robot's axis, which does not turn.
+Pose SensorPose(const Eigen::Vector2d& p_W) {
+  constexpr double kSensorHeight_m = 0.8;
+  return Pose::Translation(p_W.x(), p_W.y(), kSensorHeight_m);
+}
+
 Eigen::Vector2d Shortened(const Eigen::Vector2d& way_W, double most_m) {
   const double length_m = way_W.norm();
   return length_m > most_m ? Eigen::Vector2d(most_m / length_m * way_W) : way_W;
@@ -104,9 +110,9 @@ absl::StatusOr<LoopResult> RunLoop(const Course& course, const LoopOptions& opti
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   ompl::RNG::setSeed(kPlannerSeed);
   FrontEnd front_end(SimulationOf(course, options), options.motion_over);
-  Navigator navigator(course, options.navigator);
-  Follower robot(course.start_W);
-  Judge judge(course.world);
+  Navigator navigator(course.errand, options.navigator);
+  Follower robot(course.errand.start_W);
+  Judge judge(course.world, course.errand.carrier);
   LoopResult result;
   const auto scans = static_cast<std::size_t>(options.lasts / kScanPeriod);
   for (std::size_t k = 0; k < scans; ++k) {
@@ -115,7 +121,7 @@ absl::StatusOr<LoopResult> RunLoop(const Course& course, const LoopOptions& opti
     judge.Saw(frame.labels, now);
     const absl::StatusOr<ScenePtr> scene = feed.Push(frame);
     if (!scene.ok()) return scene.status();
-    const double left_m = (frame.T_W_S.translation.head<2>() - course.goal_W).norm();
+    const double left_m = (frame.T_W_S.translation.head<2>() - course.errand.goal_W).norm();
     if (!result.arrival && left_m < kArrived_m) result.arrival = now;
     const TimedPath::Knot next = robot.Localized(frame.T_W_S, now);
     std::optional<Decision> decision;

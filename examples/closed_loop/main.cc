@@ -80,7 +80,7 @@ absl::Status Run(const Settings& settings) {
     if (there) return;
     shown = step.scene;
     until = step.time;
-    there = (step.robot_W - course.goal_W).norm() < kArrived_m;
+    there = (step.robot_W - course.errand.goal_W).norm() < kArrived_m;
   });
   if (!result.ok()) return result.status();
   Print(*result, course.world);

@@ -18,44 +18,59 @@ constexpr Duration kShort = std::chrono::seconds(1);
 
 }  // namespace
 
-Navigator::Navigator(const Course& course, const NavigatorOptions& options)
-    : course_(course),
+Navigator::Navigator(const Errand& errand, const NavigatorOptions& options)
+    : errand_(errand),
       options_(options),
-      robot_(std::make_shared<const PreparedRobot>(MakeRobot())) {}
+      robot_(std::make_shared<const PreparedRobot>(errand.carrier.Model())) {}
 
-CheckOptions Navigator::Checks() const {
+CheckOptions Navigator::Checks(double inflation_mps) const {
   CheckOptions checks;
   checks.unknown = options_.unknown;
   checks.max_unknown_fraction = options_.max_unknown_fraction;
   checks.padding_m = options_.padding_m;
-  checks.inflation_mps = options_.inflation_mps;
+  checks.inflation_mps = inflation_mps;
+  checks.inflate_moving_only = options_.inflate_moving_only;
   return checks;
 }
 
-std::optional<Time> Navigator::Proved(const TimedPath& way, Time from) const {
-  const Time until = std::max(from + options_.proved_for, way.end_time());
-  if (FreeUntil(*checker_, {way}, from, until, Checks())[0] < until) return std::nullopt;
+std::optional<Time> Navigator::Proved(const Way& way, Time from) const {
+  const auto free_until = [&](Time until, double inflation_mps) {
+    return FreeUntil(*checker_, errand_.carrier, {way.path}, from, until, Checks(inflation_mps))[0];
+  };
+  const Time until = std::max(from + options_.proved_for, way.path.end_time());
+  const Time surely = from + options_.surely_for;
+  const bool weaker = way.inflation_mps < options_.inflation_mps;
+  if (weaker && free_until(surely, options_.inflation_mps) < surely) return std::nullopt;
+  if (free_until(until, way.inflation_mps) < until) return std::nullopt;
   return until;
 }
 
-std::optional<TimedPath> Navigator::Plan(const TimedPath::Knot& start) const {
-  const WayQuestion question{.start = start, .goal_W = course_.goal_W, .area_W = course_.area_W};
-  const bool there = (start.p_W - course_.goal_W).norm() < kAtGoal_m;
-  const std::optional<TimedPath> way =
-      there ? TimedPath(start.time, start.p_W) : FindWay(checker_, question, Checks());
-  return way && Proved(*way, start.time) ? way : std::nullopt;
+std::optional<Navigator::Way> Navigator::PlanWith(double inflation_mps,
+                                                  const TimedPath::Knot& start) const {
+  const WayQuestion question{.start = start, .errand = errand_};
+  const bool there = (start.p_W - errand_.goal_W).norm() < kAtGoal_m;
+  const std::optional<TimedPath> path =
+      there ? TimedPath(start.time, start.p_W) : FindWay(checker_, question, Checks(inflation_mps));
+  if (!path) return std::nullopt;
+  const Way way{*path, inflation_mps};
+  return Proved(way, start.time) ? std::optional(way) : std::nullopt;
+}
+
+std::optional<Navigator::Way> Navigator::Plan(const TimedPath::Knot& start) const {
+  std::optional<Way> way;
+  if (options_.later_inflation_mps) way = PlanWith(*options_.later_inflation_mps, start);
+  return way ? way : PlanWith(options_.inflation_mps, start);
 }
 
 // With fewer and fewer margins, where nothing is free for long with them.
 Decision Navigator::Evade(const TimedPath::Knot& start) const {
-  const CheckOptions wanted = Checks();
-  CheckOptions not_inflated = wanted, bare = wanted;
-  not_inflated.inflation_mps = bare.inflation_mps = 0;
+  const CheckOptions wanted = Checks(options_.inflation_mps), not_inflated = Checks(0);
+  CheckOptions bare = not_inflated;
   bare.padding_m = 0;
   Decision decision{TimedPath(start.time, start.p_W), Choice::kEvaded, start.time};
   for (const CheckOptions& checks : {wanted, not_inflated, bare}) {
-    const Evasion evasion = FindEvasion(*checker_, start, course_.goal_W, course_.area_W,
-                                        start.time + options_.proved_for, checks);
+    const Evasion evasion =
+        FindEvasion(*checker_, start, errand_, start.time + options_.proved_for, checks);
     decision.path = evasion.path;
     decision.free_until = evasion.free_until;
     if (evasion.free_until >= start.time + kShort) break;
@@ -63,15 +78,20 @@ Decision Navigator::Evade(const TimedPath::Knot& start) const {
   return decision;
 }
 
+bool Navigator::StillGood(ScenePtr scene, const TimedPath::Knot& start) {
+  checker_ = std::make_shared<SceneChecker>(std::move(scene), robot_);
+  return way_ && Proved(*way_, start.time);
+}
+
 Decision Navigator::Decide(ScenePtr scene, const TimedPath::Knot& start) {
   checker_ = std::make_shared<SceneChecker>(std::move(scene), robot_);
   const std::optional<Time> kept_until = way_ ? Proved(*way_, start.time) : std::nullopt;
-  const std::optional<TimedPath> planned = Plan(start);
-  if (planned && (!kept_until || planned->end_time() + kWorthwhile < way_->end_time())) {
+  const std::optional<Way> planned = Plan(start);
+  if (planned && (!kept_until || planned->path.end_time() + kWorthwhile < way_->path.end_time())) {
     way_ = planned;
-    return {*way_, Choice::kPlanned, *Proved(*way_, start.time)};
+    return {way_->path, Choice::kPlanned, *Proved(*way_, start.time)};
   }
-  if (kept_until) return {*way_, Choice::kKept, *kept_until};
+  if (kept_until) return {way_->path, Choice::kKept, *kept_until};
   way_.reset();
   return Evade(start);
 }

@@ -3,27 +3,29 @@
 namespace clearway::closed_loop {
 namespace {
 
-void AppendKnot(Time time, const Eigen::Vector2d& p_W, MotionBatch& motions) {
-  motions.times.push_back(time);
-  motions.T_W_L.push_back(LinkPose(p_W));
+void AppendKnot(const Carrier& carrier, const TimedPath::Knot& knot, MotionBatch& motions) {
+  motions.times.push_back(knot.time);
+  motions.T_W_L.push_back(carrier.LinkPose(knot.p_W));
 }
 
-void AppendMotion(const TimedPath& path, Time from, Time until, MotionBatch& motions) {
+void AppendMotion(const Carrier& carrier, const TimedPath& path, Time from, Time until,
+                  MotionBatch& motions) {
   const std::size_t before = motions.times.size();
-  AppendKnot(from, path.At(from), motions);
+  AppendKnot(carrier, {from, path.At(from)}, motions);
   for (const TimedPath::Knot& knot : path.knots()) {
-    if (knot.time > from && knot.time < until) AppendKnot(knot.time, knot.p_W, motions);
+    if (knot.time > from && knot.time < until) AppendKnot(carrier, knot, motions);
   }
-  AppendKnot(until, path.At(until), motions);
+  AppendKnot(carrier, {until, path.At(until)}, motions);
   motions.knot_counts.push_back(motions.times.size() - before);
 }
 
 }  // namespace
 
-std::vector<Time> FreeUntil(const StateChecker& checker, const std::vector<TimedPath>& paths,
-                            Time from, Time until, const CheckOptions& options) {
+std::vector<Time> FreeUntil(const StateChecker& checker, const Carrier& carrier,
+                            const std::vector<TimedPath>& paths, Time from, Time until,
+                            const CheckOptions& options) {
   MotionBatch motions;
-  for (const TimedPath& path : paths) AppendMotion(path, from, until, motions);
+  for (const TimedPath& path : paths) AppendMotion(carrier, path, from, until, motions);
   // Where it is a matter of contact a few centimetres are as good as one.
   const auto reply =
       checker.CheckMotions(motions, {.check = options, .contact_resolution_m = 0.05});

@@ -13,12 +13,12 @@ namespace {
 
 constexpr Duration kShownEvery = std::chrono::seconds(2);
 
-std::vector<Eigen::Vector2d> RobotOutline() {
+std::vector<Eigen::Vector2d> RobotOutline(double radius_m) {
   constexpr int kCorners = 24;
   std::vector<Eigen::Vector2d> outline;
   for (int i = 0; i < kCorners; ++i) {
     const double angle_rad = 2 * std::numbers::pi * i / kCorners;
-    outline.push_back(kRobotRadius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+    outline.push_back(radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
   }
   return outline;
 }
@@ -35,8 +35,8 @@ absl::Status WritePicture(const Course& course, const LoopResult& result,
           ? absl::StrFormat("at the goal after %.1f s", ToSeconds(*result.arrival - Time()))
           : std::string("never at the goal"),
       result.collisions.size());
-  options.area_W = course.area_W;
-  options.footprint_L = RobotOutline();
+  options.area_W = course.errand.area_W;
+  options.footprint_L = RobotOutline(std::get<Cylinder>(course.errand.carrier.body).radius_m);
   options.footprint_every = kShownEvery;
   // The picture's colours are of what is still to come; here it is the past, counted from its
   // start.
@@ -44,7 +44,8 @@ absl::Status WritePicture(const Course& course, const LoopResult& result,
   TopViewPath& driven = options.paths.emplace_back();
   driven.name = "robot";
   for (const TimedPath::Knot& knot : result.driven) {
-    if (knot.time <= until) driven.poses.push_back({knot.time + shift, LinkPose(knot.p_W)});
+    if (knot.time <= until)
+      driven.poses.push_back({knot.time + shift, course.errand.carrier.LinkPose(knot.p_W)});
   }
   const demo::Truth truth = demo::TruthOf(std::make_shared<const World>(course.world), until);
   for (Time time; time <= until; time += kShownEvery) {

@@ -4,16 +4,11 @@
 
 namespace clearway::closed_loop {
 
-Robot MakeRobot() {
-  return Robot::SingleShape("carrier", Cylinder{kRobotRadius_m, kRobotHeight_m});
-}
-
-Pose LinkPose(const Eigen::Vector2d& p_W) {
-  return Pose::Translation(p_W.x(), p_W.y(), kGroundClearance_m + 0.5 * kRobotHeight_m);
-}
-
-Pose SensorPose(const Eigen::Vector2d& p_W) {
-  return Pose::Translation(p_W.x(), p_W.y(), kSensorHeight_m);
+Pose Carrier::LinkPose(const Eigen::Vector2d& p_W) const {
+  const double ground_m = ground.height_m ? ground.height_m(p_W.x(), p_W.y()) : 0;
+  const double above_ground_m = ground.clearance_m - BoundingBox(body).min.z();
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())),
+          {p_W.x(), p_W.y(), ground_m + above_ground_m}};
 }
 
 Eigen::Vector2d TimedPath::At(Time time) const {

@@ -6,19 +6,30 @@
 
 #include "clearway/base/time.h"
 #include "clearway/collision/robot.h"
+#include "clearway/geometry/aabb.h"
+#include "clearway/planning/state_mapping.h"
 
 namespace clearway::closed_loop {
 
-// An upright cylinder that goes any way at once, with its LiDAR on its axis.
-inline constexpr double kRobotRadius_m = 0.3, kRobotHeight_m = 1.0;
-inline constexpr double kGroundClearance_m = 0.1, kSensorHeight_m = 0.8;
-inline constexpr double kRobotSpeed_mps = 1.5;
+// An upright body that goes any way at once and does not turn. A plain value.
+struct Carrier {
+  Shape body = Cylinder{0.3, 1.0};
+  double yaw_rad = 0;
+  double max_speed_mps = 1.5;
+  Ground ground;  // that it stands on
 
-Robot MakeRobot();
+  Robot Model() const { return Robot::SingleShape("carrier", body); }
+  // T_W_L of its one link.
+  Pose LinkPose(const Eigen::Vector2d& p_W) const;
+};
 
-// T_W_L of the robot's one link, and T_W_S of its sensor, which does not turn.
-Pose LinkPose(const Eigen::Vector2d& p_W);
-Pose SensorPose(const Eigen::Vector2d& p_W);
+// What a carrier is to do: to go to a goal and to stay there. A plain value.
+struct Errand {
+  Carrier carrier;
+  Eigen::Vector2d start_W = Eigen::Vector2d::Zero();
+  Eigen::Vector2d goal_W = Eigen::Vector2d::Zero();
+  Aabb area_W;  // where it may go
+};
 
 // Where to be when: straight and evenly from knot to knot; before the first and after the last one
 // it stands still there. Never empty. A value.

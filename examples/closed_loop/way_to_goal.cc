@@ -18,12 +18,13 @@ std::shared_ptr<SpaceTimeStateSpace> SpaceOf(const WayQuestion& question) {
   auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
   ob::RealVectorBounds bounds(2);
   for (unsigned int axis : {0u, 1u}) {
-    bounds.setLow(axis, question.area_W.min[axis]);
-    bounds.setHigh(axis, question.area_W.max[axis]);
+    bounds.setLow(axis, question.errand.area_W.min[axis]);
+    bounds.setHigh(axis, question.errand.area_W.max[axis]);
   }
   plane->setBounds(bounds);
   return std::make_shared<SpaceTimeStateSpace>(
-      plane, SpeedLimits{.translation_mps = question.max_speed_mps}, question.latest);
+      plane, SpeedLimits{.translation_mps = question.errand.carrier.max_speed_mps},
+      question.latest);
 }
 
 TimedPath ToTimedPath(const og::PathGeometric& path, Time epoch) {
@@ -43,12 +44,12 @@ TimedPath ToTimedPath(const og::PathGeometric& path, Time epoch) {
 std::optional<TimedPath> FindWay(const std::shared_ptr<const StateChecker>& checker,
                                  const WayQuestion& question, const CheckOptions& options) {
   const auto space = SpaceOf(question);
-  Ground ground;
-  ground.clearance_m = kGroundClearance_m;
-  const auto mapping = StateMapping::R2(checker->robot(), ground, TimeSince{question.start.time});
+  const auto mapping =
+      StateMapping::R2(checker->robot(), question.errand.carrier.ground,
+                       TimeSince{question.start.time}, question.errand.carrier.yaw_rad);
   ob::ScopedState<> start(space), goal(space);
   start = std::vector<double>{question.start.p_W.x(), question.start.p_W.y(), 0};
-  goal = std::vector<double>{question.goal_W.x(), question.goal_W.y(), 0};
+  goal = std::vector<double>{question.errand.goal_W.x(), question.errand.goal_W.y(), 0};
   const auto setup = MakeSpaceTimeSetup(
       space, checker, mapping, {.check = options, .contact_resolution_m = 0.05}, start.get(),
       SpaceTimeStateSpace::SpacePart(goal.get()), {.tolerance = 0.01});

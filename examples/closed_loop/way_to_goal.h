@@ -12,9 +12,7 @@ namespace clearway::closed_loop {
 // A plain value.
 struct WayQuestion {
   TimedPath::Knot start;
-  Eigen::Vector2d goal_W;
-  Aabb area_W;
-  double max_speed_mps = kRobotSpeed_mps;
+  Errand errand;                               // but for its start
   Duration latest = std::chrono::seconds(16);  // from the start to the arrival
   // How often the planner may ask whether to go on: effort, not time, so that what comes of it does
   // not depend on the machine.

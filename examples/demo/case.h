@@ -6,11 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "clearway/client/connection.h"
-#include "demo/plan.h"
-#include "demo/sequence.h"
+#include "demo/place.h"
 
 namespace clearway::demo {
+
+// How a crossing was driven. A plain value.
+struct DriveLog {
+  std::size_t scans = 0, decisions = 0, plans = 0, evasions = 0;
+  double slowest_decision_s = 0;  // of this computer's clock
+  bool arrived = false;
+  bool cut_off = false;  // the recording ended meanwhile
+};
 
 // What came of a problem. Everything from `crossing` on is there as far as the case got.
 struct CaseResult {
@@ -21,7 +27,8 @@ struct CaseResult {
   Verdict straight;
   std::vector<TimedPose> straight_way;
   std::optional<Plan> plan;
-  double planning_s = 0;  // of this computer's clock
+  double planning_s = 0;          // of this computer's clock
+  std::optional<DriveLog> drive;  // if it was driven: the plan's path is what was driven
   Verdict verdict;
   std::string problem;  // why there is no plan; empty if there is one
 
@@ -35,13 +42,22 @@ struct CaseResult {
   std::string Conclusion() const;
 };
 
-// Takes the first place that poses the problem: the straight way at full speed touches something
-// that moves, and the static map leaves room. Plans there on the
-// server's version `version`, and judges the plan by what really happened. An error is the
-// server's.
-absl::StatusOr<CaseResult> RunCase(std::shared_ptr<Connection> connection,
-                                   const SceneSnapshot& scene, const Problem& problem,
-                                   const Truth& truth, const PlanSettings& settings);
+// A problem at a place. A plain value.
+struct PosedCase {
+  CaseResult result;           // as far as it got
+  std::optional<Place> place;  // none: the case is void, and its `problem` says so
+};
+
+// Takes the first place that poses the problem on the server's version of `scene`; see ChoosePlace.
+// An error is the server's.
+absl::StatusOr<PosedCase> PoseCase(const std::shared_ptr<Connection>& connection,
+                                   const SceneSnapshot& scene, const ScenePtr& hindsight,
+                                   const Problem& problem, const Truth& truth,
+                                   const PlanSettings& settings);
+
+// Plans there once, and judges the plan by what really happened. An error is the server's.
+absl::StatusOr<CaseResult> PlanCase(PosedCase posed, const Truth& truth,
+                                    const PlanSettings& settings);
 
 // The picture of a case.
 absl::Status DrawCase(const SceneSnapshot& scene, const CaseResult& result,

@@ -28,6 +28,12 @@ Json VerdictOf(const Verdict& verdict, Time now) {
   return json;
 }
 
+Json DriveOf(const DriveLog& drive) {
+  return {{"arrived", drive.arrived},     {"cut_off", drive.cut_off},
+          {"decisions", drive.decisions}, {"plans", drive.plans},
+          {"evasions", drive.evasions},   {"slowest_decision_s", drive.slowest_decision_s}};
+}
+
 Json CrossingOf(const Crossing& crossing) {
   const Eigen::Vector3d& size = crossing.robot_size_m;
   return {{"blocker", crossing.blocker},
@@ -58,9 +64,12 @@ Json JsonOf(const CaseResult& result) {
                   {"inflation_mps", result.plan->inflation_mps},
                   {"scene_version", result.plan->version},
                   {"arrival_s", result.ArrivalSeconds()},
-                  {"unknown_fraction", result.plan->unknown_fraction},
                   {"states_checked", result.plan->states_checked},
                   {"path", PathOf(result.plan->path, now)}};
+  if (result.plan->unknown_fraction) {
+    json["plan"]["unknown_fraction"] = *result.plan->unknown_fraction;
+  }
+  if (result.drive) json["drive"] = DriveOf(*result.drive);
   json["verdict"] = VerdictOf(result.verdict, now);
   return json;
 }

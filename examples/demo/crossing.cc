@@ -64,6 +64,12 @@ double Crossing::Yaw() const {
   return std::atan2(way.y(), way.x());
 }
 
+Ground GroundPlane::Under(double clearance_m) const {
+  return {.height_m = [plane = *this](double x_m, double y_m) { return plane.HeightM(x_m, y_m); },
+          .clearance_m = clearance_m,
+          .max_slope = Slope()};
+}
+
 absl::StatusOr<Crossing> MakeCrossing(const Truth& truth, ObjectId blocker, Time now,
                                       double shift_m, bool from_right) {
   constexpr Duration kEither = std::chrono::milliseconds(200);

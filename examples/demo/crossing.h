@@ -7,6 +7,7 @@
 #include "absl/status/statusor.h"
 #include "clearway/collision/robot.h"
 #include "clearway/geometry/timed_pose.h"
+#include "clearway/planning/state_mapping.h"
 #include "demo/truth.h"
 
 namespace clearway::demo {
@@ -26,9 +27,11 @@ struct Crossing {
   double Yaw() const;  // of the way from start to goal
   // The robot to plan with: wider by `margin_m` on all sides, but not taller, for below it there is
   // the ground.
+  Box RobotBody(double margin_m) const {
+    return {robot_size_m + 2 * margin_m * Eigen::Vector3d(1, 1, 0)};
+  }
   Robot RobotModel(double margin_m) const {
-    return Robot::SingleShape("delivery robot",
-                              Box{robot_size_m + 2 * margin_m * Eigen::Vector3d(1, 1, 0)});
+    return Robot::SingleShape("delivery robot", RobotBody(margin_m));
   }
 };
 
@@ -46,6 +49,8 @@ struct GroundPlane {
     return coefficients.dot(Eigen::Vector3d(1, x_m - center_W.x(), y_m - center_W.y()));
   }
   double Slope() const { return coefficients.tail<2>().norm(); }
+  // For planners of a robot that is kept `clearance_m` above it.
+  Ground Under(double clearance_m) const;
 };
 
 // The plane through the lowest occupied voxels within `radius_m` of the way. FAILED_PRECONDITION if

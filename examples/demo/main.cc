@@ -13,14 +13,18 @@ int main(int argc, char** argv) {
   std::uint32_t seed = 1;
   CLI::App app(
       "Starts a server, replays a sequence through it, asks what is where and when, plans "
-      "crossings "
-      "before moving objects, and judges the plans by what really happened.\n"
+      "crossings before moving objects, and judges the plans by what really happened.\n"
       "Example: clearway-demo --data ../shared/data/kitti0000_fov --out demo-output");
   app.option_defaults()->always_capture_default();
-  app.add_option("--data", options.data, "Folder of LiDAR scans; without it, the simulator")
-      ->check(CLI::ExistingDirectory);
+  auto* const data =
+      app.add_option("--data", options.data, "Folder of LiDAR scans; without it, the simulator")
+          ->check(CLI::ExistingDirectory);
   app.add_option("--plan-after", options.plan_after, "Frames of the folder after which to plan")
       ->delimiter(',');
+  app.add_flag("--drive", options.drive,
+               "Drive the crossings while frames keep coming, deciding again when the way is no "
+               "longer free and twice a second, instead of planning each once")
+      ->needs(data);
   app.add_option("--scenario", options.scenario, "World of the simulator");
   app.add_option("--out", options.output, "Folder for summary.json and the pictures");
   app.add_option("--server", options.server, "The server's program")
@@ -31,7 +35,8 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::Range(0.0, 2.0));
   app.add_option("--inflation", options.planning.inflations_mps,
-                 "Metres a second by which predictions grow; the first that leaves a way")
+                 "Metres a second by which predictions grow; the first that leaves a way. With "
+                 "--drive the first for the next 2 s, the last for what is later")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 2.0));
   app.add_option("--iterations", options.planning.iterations,

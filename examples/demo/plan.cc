@@ -55,13 +55,10 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
                               const PlanSettings& settings) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
   const auto space = SpaceOf(crossing, settings);
-  const Ground under{
-      .height_m = [ground](double x_m, double y_m) { return ground.HeightM(x_m, y_m); },
-      .clearance_m = settings.ground_clearance_m,
-      .max_slope = ground.Slope()};
   PlanningOptions options;
   options.check = CheckOptionsOf(settings, inflation_mps);
-  const auto mapping = StateMapping::Se2(checker->robot(), under, TimeSince{crossing.now});
+  const auto mapping = StateMapping::Se2(
+      checker->robot(), ground.Under(settings.ground_clearance_m), TimeSince{crossing.now});
 
   ob::ScopedState<> start(space);
   SetSe2(SpaceTimeStateSpace::SpacePart(start.get()), crossing.start_W, crossing.Yaw());
@@ -83,8 +80,12 @@ absl::StatusOr<Plan> PlanWith(double inflation_mps,
   path.interpolate(static_cast<unsigned int>(check.answers.size()));
   auto poses = TimedPoses(path, query.mapping());
   if (!poses.ok()) return poses.status();
-  return Plan{(*setup)->getPlanner()->getName(),  inflation_mps,      *std::move(poses),
-              check.unknown_fraction.value_or(1), checker->version(), check.answers.size()};
+  return Plan{(*setup)->getPlanner()->getName(),
+              inflation_mps,
+              *std::move(poses),
+              check.unknown_fraction,
+              checker->version(),
+              check.answers.size()};
 }
 
 }  // namespace

@@ -32,9 +32,10 @@ struct PlanSettings {
 // A plan and what it is based on.
 struct Plan {
   std::string planner;
-  double inflation_mps = 0;        // that it was made with
-  std::vector<TimedPose> path;     // of the robot's box, at its centre
-  double unknown_fraction = 0;     // mean share of the robot's volume in unknown space
+  double inflation_mps = 0;     // that it was made with
+  std::vector<TimedPose> path;  // of the robot's box, at its centre
+  // Mean share of the robot's volume in unknown space, if that was asked.
+  std::optional<double> unknown_fraction = std::nullopt;
   std::uint64_t version = 0;       // of the scene
   std::size_t states_checked = 0;  // along the final path
 };

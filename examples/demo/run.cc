@@ -8,12 +8,14 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "clearway/client/scene_mirror.h"
-#include "clearway/report/object_sheet.h"
-#include "clearway/report/top_view.h"
 #include "demo/case.h"
 #include "demo/case_json.h"
+#include "demo/case_text.h"
+#include "demo/drive.h"
 #include "demo/questions.h"
 #include "demo/replay.h"
+#include "demo/scene_pictures.h"
+#include "demo/scene_setup.h"
 #include "demo/server_process.h"
 
 namespace clearway::demo {
@@ -21,20 +23,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kHorizonS = 12;  // predictions are asked for as long as a crossing takes
-// In a second. Recorded boxes of parked vehicles jitter; on the KITTI drive 0.4 is too little.
-constexpr double kRestDistanceM = 0.6;
-constexpr double kMaxRangeM = 50;  // beyond, the beams of a LiDAR lie too far apart
-
-std::vector<std::string> ServerFlags(const Sequence& sequence) {
-  const double resolution_m = sequence.frames.resolution_m;
-  return {"--log-level=warning",
-          absl::StrCat("--scene-resolution-m=", resolution_m),
-          absl::StrCat("--scene-object-resolution-m=", resolution_m),
-          absl::StrCat("--scene-horizon-s=", kHorizonS),
-          absl::StrCat("--scene-rest-distance-m=", kRestDistanceM),
-          absl::StrCat("--scene-max-range-m=", kMaxRangeM)};
-}
+// A drive, and the scene that it began with.
+struct Driven {
+  ScenePtr from;
+  Drive drive;
+};
 
 // One run; each step writes its part of the summary.
 class Demo {
@@ -43,7 +36,13 @@ class Demo {
       : options_(options), sequence_(sequence), out_(out), is_terminal_(is_terminal) {}
 
   absl::Status Start() {
-    auto server = ServerProcess::Start(options_.server, ServerFlags(sequence_));
+    const SceneParams params = ParamsFor(sequence_, options_.drive);
+    if (options_.drive) {
+      auto hindsight = SceneAtTheEnd(sequence_, params);
+      if (!hindsight.ok()) return hindsight.status();
+      hindsight_ = *std::move(hindsight);
+    }
+    auto server = ServerProcess::Start(options_.server, ServerFlags(params));
     if (!server.ok()) return server.status();
     server_ = *std::move(server);
     auto connection = Connection::Open(server_->address());
@@ -77,17 +76,19 @@ class Demo {
     json["occupancy"] = occupancy->json;
     json["cases"] = Json::array();
     for (const Problem& problem : stop.problems) {
-      const auto result =
-          RunCase(connection_, **scene, problem, sequence_.truth, options_.planning);
+      auto posed =
+          PoseCase(connection_, **scene, hindsight_, problem, sequence_.truth, options_.planning);
+      if (!posed.ok()) return posed.status();
+      if (options_.drive && posed->place) {
+        drives_.push_back({*scene, Drive(*std::move(posed), options_.planning)});
+        drives_.back().drive.Step(*scene);
+        continue;
+      }
+      const auto result = PlanCase(*std::move(posed), sequence_.truth, options_.planning);
       if (!result.ok()) return result.status();
-      const std::string picture = absl::StrCat("case_", ++cases_, ".png");
-      const absl::Status drawn = DrawCase(**scene, *result, sequence_, options_.output / picture);
-      if (!drawn.ok()) return drawn;
-      PrintCase(*result, picture);
-      Json case_json = JsonOf(*result);
-      case_json["picture"] = picture;
-      json["cases"].push_back(std::move(case_json));
-      all_passed_ = all_passed_ && result->Passed();
+      const auto case_json = Report(**scene, *result);
+      if (!case_json.ok()) return case_json.status();
+      json["cases"].push_back(*case_json);
     }
     summary_["stops"].push_back(std::move(json));
     return absl::OkStatus();
@@ -100,7 +101,14 @@ class Demo {
     const auto objects = AskObjects(SceneClient(connection_), **scene, sequence_.object_names);
     if (!objects.ok()) return objects.status();
     out_ << "\nAfter the last frame:\n" << objects->table;
-    if (const absl::Status drawn = DrawScene(**scene); !drawn.ok()) return drawn;
+    if (options_.drive) summary_["drives"] = Json::array();
+    for (const Driven& driven : drives_) {
+      const auto case_json = Report(*driven.from, driven.drive.Result(sequence_.truth));
+      if (!case_json.ok()) return case_json.status();
+      summary_["drives"].push_back(*case_json);
+    }
+    const absl::Status drawn = DrawScene(**scene, sequence_, options_.output);
+    if (!drawn.ok()) return drawn;
     const ReplayTotals& totals = replay_->totals();
     summary_["objects"] = objects->json;
     summary_["replay"] = {
@@ -133,61 +141,34 @@ class Demo {
  private:
   absl::StatusOr<ScenePtr> ReplayThrough(std::size_t frame) {
     out_ << "\nFrames up to " << frame << "\n";
+    // Who drives has to see each of them.
+    for (std::size_t next = replay_->totals().frames; !drives_.empty() && next < frame; ++next) {
+      const auto scene = SceneAfter(next);
+      if (!scene.ok()) return scene.status();
+      for (Driven& driven : drives_) driven.drive.Step(*scene);
+    }
+    const auto scene = SceneAfter(frame);
+    if (scene.ok())
+      for (Driven& driven : drives_) driven.drive.Step(*scene);
+    return scene;
+  }
+
+  absl::StatusOr<ScenePtr> SceneAfter(std::size_t frame) {
     const absl::Status status = replay_->Through(frame);
     if (!status.ok()) return status;
     return mirror_->WaitFor(replay_->totals().version, std::chrono::seconds(30));
   }
 
-  void PrintCase(const CaseResult& result, const std::string& picture) {
-    out_ << "\n" << result.name << "\n";
-    if (!result.void_places.empty()) {
-      out_ << "  void at " << result.void_places.size()
-           << " places, first: " << result.void_places.front() << "\n";
-    }
-    if (result.crossing) {
-      const Crossing& crossing = *result.crossing;
-      if (crossing.shift_m != 0) {
-        out_ << absl::StrFormat("  crossing shifted by %+.1f m along the object's path\n",
-                                crossing.shift_m);
-      }
-      if (result.straight.touched != crossing.blocker) {
-        out_ << absl::StrFormat(
-            "  no place before object %d itself: this one is before object %d\n", crossing.blocker,
-            result.straight.touched);
-      }
-      out_ << absl::StrFormat("  straight at %g m/s: touches object %d after %.2f s\n",
-                              crossing.max_speed_mps, result.straight.touched,
-                              ToSeconds(*result.straight.contact - crossing.now));
-    }
-    if (result.plan) {
-      out_ << absl::StrFormat(
-          "  plan (%s, %.1f s): version %d, margin %g m, inflation %g m/s, %d states checked, "
-          "%.1f %% unknown space, closest %.2f m\n",
-          result.plan->planner, result.planning_s, result.plan->version, result.margin_m,
-          result.plan->inflation_mps, result.plan->states_checked,
-          100 * result.plan->unknown_fraction, result.verdict.closest_m);
-    }
-    const char* const passed =
-        result.KnownToTheEnd() ? "PASSED: " : "PASSED as far as it is recorded: ";
-    out_ << "  " << (result.Passed() ? passed : "FAILED: ") << result.Conclusion() << "  ["
-         << picture << "]\n";
-  }
-
-  absl::Status DrawScene(const SceneSnapshot& scene) const {
-    TopViewOptions overview;
-    overview.title =
-        absl::StrCat(sequence_.name, ": the map after ", sequence_.frames.frame_count, " frames");
-    overview.subtitle = absl::StrFormat("%d occupied voxels of %g m, %d objects",
-                                        scene.static_map_W.occupied_count(),
-                                        scene.params.resolution_m, scene.objects.size());
-    overview.names = sequence_.object_names;
-    overview.area_W = scene.static_map_W.OccupiedBox().Padded(2);
-    const absl::Status status = WriteTopView(scene, overview, options_.output / "overview.png");
-    if (!status.ok()) return status;
-    ObjectSheetOptions sheet;
-    sheet.title = absl::StrCat(sequence_.name, ": objects as reconstructed");
-    sheet.names = sequence_.object_names;
-    return WriteObjectSheet(scene, sheet, options_.output / "objects.png");
+  // Draws and prints; the JSON names the picture.
+  absl::StatusOr<Json> Report(const SceneSnapshot& scene, const CaseResult& result) {
+    const std::string picture = absl::StrCat("case_", ++cases_, ".png");
+    const absl::Status drawn = DrawCase(scene, result, sequence_, options_.output / picture);
+    if (!drawn.ok()) return drawn;
+    Print(result, picture, out_);
+    Json json = JsonOf(result);
+    json["picture"] = picture;
+    all_passed_ = all_passed_ && result.Passed();
+    return json;
   }
 
   const DemoOptions& options_;
@@ -198,6 +179,8 @@ class Demo {
   std::shared_ptr<Connection> connection_;
   std::unique_ptr<SceneMirror> mirror_;
   std::unique_ptr<Replay> replay_;
+  ScenePtr hindsight_;  // if crossings are driven
+  std::vector<Driven> drives_;
   Json summary_;
   int cases_ = 0;
   bool all_passed_ = true;
@@ -206,8 +189,10 @@ class Demo {
 }  // namespace
 
 absl::StatusOr<bool> RunDemo(const DemoOptions& options, std::ostream& out, bool is_terminal) {
-  const auto sequence = options.data.empty() ? SimulatedSequence(options.scenario)
-                                             : RecordedSequence(options.data, options.plan_after);
+  const auto sequence =
+      options.data.empty() ? SimulatedSequence(options.scenario)
+                           : RecordedSequence(options.data, options.plan_after,
+                                              options.drive ? kDriveMotionsOver : Duration::zero());
   if (!sequence.ok()) return sequence.status();
   std::error_code error;
   std::filesystem::create_directories(options.output, error);

@@ -18,6 +18,8 @@ struct DemoOptions {
   std::string scenario = "crossing";                   // of the simulator
   std::filesystem::path output = "demo-output";
   std::string server;  // the program
+  // Drive the crossings while frames keep coming, instead of planning each once.
+  bool drive = false;
   PlanSettings planning;
 };
 

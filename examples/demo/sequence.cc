@@ -103,8 +103,9 @@ absl::StatusOr<Sequence> SimulatedSequence(const std::string& scenario) {
 }
 
 absl::StatusOr<Sequence> RecordedSequence(const std::string& folder_name,
-                                          const std::vector<std::size_t>& plan_after) {
-  const auto folder = OpenLidarFolder(folder_name);
+                                          const std::vector<std::size_t>& plan_after,
+                                          Duration motions_over) {
+  const auto folder = OpenLidarFolder(folder_name, {.motions_over = motions_over});
   if (!folder.ok()) return folder.status();
   Sequence sequence;
   sequence.name = std::filesystem::weakly_canonical(folder_name).filename().string();

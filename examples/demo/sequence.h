@@ -42,7 +42,9 @@ absl::StatusOr<Sequence> SimulatedSequence(const std::string& scenario);
 
 // A LiDAR folder: after the frames, ascending, the recorded paths of the first two moving objects
 // are crossed. Frames that it does not have are left out; INVALID_ARGUMENT if that leaves none.
+// `motions_over` is LidarFolderOptions::motions_over.
 absl::StatusOr<Sequence> RecordedSequence(const std::string& folder,
-                                          const std::vector<std::size_t>& plan_after);
+                                          const std::vector<std::size_t>& plan_after,
+                                          Duration motions_over);
 
 }  // namespace clearway::demo

@@ -69,16 +69,26 @@ std::pair<const RecordedBox*, const RecordedBox*> BoxesOf(const std::vector<Reco
   return {boxes.data() + (first - boxes.begin()), boxes.data() + (last - boxes.begin())};
 }
 
-// Eq. (2) for every object with a box at both frames; both lists ascend by id.
+const RecordedBox* BoxOf(const OpenFolder& open, std::size_t index, ObjectId id) {
+  const auto [begin, end] = BoxesOf(open.boxes, open.poses[index].frame);
+  const RecordedBox* const box = std::ranges::lower_bound(begin, end, id, {}, &RecordedBox::id);
+  return box != end && box->id == id ? box : nullptr;
+}
+
+// Eq. (2) for every object with a box at the frame and at one that is the motion's begin.
 void AddMotions(const OpenFolder& open, std::size_t index, Frame& frame) {
   if (index == 0) return;
-  const RecordedPose& before = open.poses[index - 1];
-  auto [previous, previous_end] = BoxesOf(open.boxes, before.frame);
+  const Time earliest = open.poses[index].stamp - open.options.motions_over;
+  std::size_t first = index - 1;
+  while (first > 0 && open.poses[first - 1].stamp >= earliest) --first;
   const auto [begin, end] = BoxesOf(open.boxes, open.poses[index].frame);
   for (const RecordedBox* box = begin; box != end; ++box) {
-    while (previous != previous_end && previous->id < box->id) ++previous;
-    if (previous == previous_end || previous->id != box->id) continue;
-    frame.motions.push_back({box->id, box->T_W_B * Inverse(previous->T_W_B), before.stamp});
+    for (std::size_t from = first; from < index; ++from) {
+      const RecordedBox* const then = BoxOf(open, from, box->id);
+      if (then == nullptr) continue;
+      frame.motions.push_back({box->id, box->T_W_B * Inverse(then->T_W_B), open.poses[from].stamp});
+      break;
+    }
   }
 }
 

@@ -56,10 +56,12 @@ double AnytimeSearch::ArrivalBy(const ob::State* part) const {
   return reached_s + left_s;
 }
 
-// Once there is a path, every other place is near it.
+// Once there is a path, a few places are near it. Not more: an earlier arrival is more often on
+// another side of what moves than near the path.
 void AnytimeSearch::SamplePlace(ob::State* part) {
+  constexpr double kShareNear = 0.1;
   constexpr double kNear = 0.05;  // of the space
-  if (path_.empty() || random_.uniform01() < 0.5) return sampler_->sampleUniform(part);
+  if (path_.empty() || random_.uniform01() >= kShareNear) return sampler_->sampleUniform(part);
   const int stay = random_.uniformInt(0, static_cast<int>(path_.size()) - 1);
   sampler_->sampleUniformNear(part, roadmap_.Place(path_[stay].place),
                               kNear * space_.space()->getMaximumExtent());

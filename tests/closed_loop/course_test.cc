@@ -9,7 +9,7 @@ namespace {
 
 bool SameCourse(const Course& a, const Course& b) {
   const auto a_bodies = a.world.bodies(), b_bodies = b.world.bodies();
-  if (a_bodies.size() != b_bodies.size() || a.goal_W != b.goal_W) return false;
+  if (a_bodies.size() != b_bodies.size() || a.errand.goal_W != b.errand.goal_W) return false;
   for (std::size_t i = 0; i < a_bodies.size(); ++i) {
     if (a_bodies[i].id != b_bodies[i].id || a_bodies[i].name != b_bodies[i].name ||
         a_bodies[i].parts[0].shape != b_bodies[i].parts[0].shape) {
@@ -33,11 +33,14 @@ TEST(CourseTest, SameSeedMakesTheSameCourse) {
 }
 
 TEST(CourseTest, NothingIsAtTheStart) {
-  const Shape robot = Cylinder{kRobotRadius_m + 1, kRobotHeight_m};
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Course dut = MakeCourse(seed, Traffic::kTurning);
+    const Carrier& carrier = dut.errand.carrier;
+    const auto& [radius_m, height_m] = std::get<Cylinder>(carrier.body);
+    const Shape around = Cylinder{radius_m + 1, height_m};
     for (const double seconds : {0.0, 1.0, 2.0, 3.0}) {
-      EXPECT_FALSE(dut.world.Touched(robot, LinkPose(dut.start_W), Time(FromSeconds(seconds))));
+      EXPECT_FALSE(dut.world.Touched(around, carrier.LinkPose(dut.errand.start_W),
+                                     Time(FromSeconds(seconds))));
     }
   }
 }
@@ -49,7 +52,7 @@ TEST(CourseTest, SteadyObjectsLeaveAndTurningOnesStay) {
       const Course course = MakeCourse(seed, traffic);
       for (const ObjectId id : course.world.ObjectIds()) {
         const Pose T_W_B = *course.world.T_W_B(id, Time(FromSeconds(30)));
-        count += course.area_W.Contains({T_W_B.translation.x(), T_W_B.translation.y(), 0});
+        count += course.errand.area_W.Contains({T_W_B.translation.x(), T_W_B.translation.y(), 0});
       }
     }
     return count;

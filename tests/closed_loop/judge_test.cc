@@ -21,14 +21,14 @@ void StandAt(const Eigen::Vector2d& p_W, Judge& judge) {
 
 TEST(JudgeTest, Empty) {
   const World nothing;
-  Judge dut(nothing);
+  Judge dut(nothing, Carrier());
   StandAt({0, 0}, dut);
   EXPECT_TRUE(dut.collisions().empty());
 }
 
 TEST(JudgeTest, FindsTheFirstContactOnce) {
   const World world = Walker();
-  Judge dut(world);
+  Judge dut(world, Carrier());
   const ObjectId seen[] = {0, 7};
   dut.Saw(seen, Time(FromSeconds(2)));
   dut.Saw(seen, Time(FromSeconds(3)));
@@ -43,7 +43,7 @@ TEST(JudgeTest, FindsTheFirstContactOnce) {
 
 TEST(JudgeTest, TellsWhoWasSeenLateOrNever) {
   const World world = Walker();
-  Judge late(world), never(world);
+  Judge late(world, Carrier()), never(world, Carrier());
   const ObjectId seen[] = {7};
   late.Saw(seen, Time(FromSeconds(3.5)));
   StandAt({0, 0}, late);
@@ -55,7 +55,7 @@ TEST(JudgeTest, TellsWhoWasSeenLateOrNever) {
 
 TEST(JudgeTest, PassingByIsNoCollision) {
   const World world = Walker();
-  Judge dut(world);
+  Judge dut(world, Carrier());
   StandAt({0, 0.61}, dut);
   EXPECT_TRUE(dut.collisions().empty());
 }

@@ -50,6 +50,23 @@ TEST(LidarFolder, MotionsJoinConsecutiveBoxes) {
   EXPECT_TRUE((motion.H_W * Eigen::Vector3d(11, 3, 1)).isApprox(Eigen::Vector3d(10, 4, 1), 1e-9));
 }
 
+TEST(LidarFolder, MotionsOverLongerBeginAtTheFirstBoxWithin) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  for (const auto& [over_ms, from_ms] : {std::pair{50, 500}, {100, 500}, {200, 400}, {5000, 400}}) {
+    const auto dut =
+        OpenLidarFolder(folder.path(), {.motions_over = std::chrono::milliseconds(over_ms)});
+    ASSERT_TRUE(dut.ok()) << dut.status();
+    const auto frame = dut->frames.read(2);
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    ASSERT_EQ(frame->motions.size(), 1u);
+    const ObjectMotion& motion = frame->motions[0];
+    EXPECT_EQ(motion.from, TimeFromNanoseconds(from_ms * 1'000'000)) << over_ms;
+    const Eigen::Vector3d center_then(from_ms == 400 ? 9 : 10, 3, 1);
+    EXPECT_TRUE((motion.H_W * center_then).isApprox(Eigen::Vector3d(10, 3, 1), 1e-9)) << over_ms;
+  }
+}
+
 TEST(LidarFolder, ObjectsAsPoses) {
   TemporaryFolder folder;
   WriteExample(folder);

@@ -16,13 +16,17 @@ namespace clearway {
 // objects_icp.csv, or those of oxts. kAny: the first pair that is there, in this order.
 enum class LidarPoses { kAny, kPlain, kIcp, kOxts };
 
-// What frames say of the objects: world motions H_W(k) = T_W_B(k) * T_W_B(k-1)^-1 (eq. 2), the
+// What frames say of the objects: world motions H_W = T_W_B(k) * T_W_B(k-1)^-1 (eq. 2), the
 // boxes' poses T_W_B, or nothing.
 enum class LidarObjects { kMotions, kPoses, kNone };
 
 struct LidarFolderOptions {
   LidarPoses poses = LidarPoses::kAny;
   LidarObjects objects = LidarObjects::kMotions;
+  // Motions begin at the first frame with a box that is at most so long before, or else at the
+  // frame before. Over a longer time the noise of the boxes counts less in a velocity, and a turn
+  // shows later.
+  Duration motions_over = Duration::zero();
   int first_frame = 0;  // by the number in the tables; both ends belong to the range
   int last_frame = std::numeric_limits<int>::max();
   // Take a frame without a file of points for a scan without points; else it is an error.
@@ -50,7 +54,7 @@ struct RecordedBox {
 // An opened folder. A value.
 struct LidarFolder {
   // The frames of the range. Frame::sequence is the number in the tables, labels are track ids.
-  // A motion is there when both boxes are, and the frame before belongs to the range too.
+  // A motion is there when both boxes are, in frames of the range.
   FrameSource frames;
   // All of the tables, whatever the range: what really happened before and after.
   std::vector<RecordedPose> poses;  // ascending frames
