@@ -27,6 +27,12 @@ class CheckHandlers final : public v1::CheckService::Service {
                             v1::CheckMotionsResponse* response) override;
   grpc::Status WatchMotions(grpc::ServerContext* context, const v1::WatchMotionsRequest* request,
                             grpc::ServerWriter<v1::WatchMotionsResponse>* writer) override;
+  grpc::Status FindSafeIntervals(grpc::ServerContext* context,
+                                 const v1::FindSafeIntervalsRequest* request,
+                                 v1::FindSafeIntervalsResponse* response) override;
+  grpc::Status FindDepartureIntervals(grpc::ServerContext* context,
+                                      const v1::FindDepartureIntervalsRequest* request,
+                                      v1::FindDepartureIntervalsResponse* response) override;
 
  private:
   ServerCore& core_;

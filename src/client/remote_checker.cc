@@ -1,7 +1,10 @@
 #include "clearway/client/remote_checker.h"
 
+#include <algorithm>
 #include <condition_variable>
+#include <iterator>
 #include <mutex>
+#include <span>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
@@ -9,6 +12,7 @@
 #include "client/call.h"
 #include "client/registered_robot.h"
 #include "wire/check_wire.h"
+#include "wire/interval_wire.h"
 #include "wire/motion_wire.h"
 
 namespace clearway {
@@ -21,6 +25,31 @@ std::size_t StatesPerRequest(const ServerLimits& limits, std::size_t links) {
       limits.max_message_bytes / 2 / (links * kBytesPerPose + kBytesPerTime);
   return std::max<std::size_t>(1, std::min<std::size_t>(limits.max_states_per_batch, by_bytes));
 }
+
+// ask(begin, end, knot) -> absl::Status about motions [begin, end), the first of which begins at
+// `knot`, as many as have `most` knots at a time.
+template <class Ask>
+absl::Status InParts(const MotionBatch& motions, std::size_t most, Ask&& ask) {
+  const std::size_t count = motions.knot_counts.size();
+  std::size_t begin = 0, knot = 0;
+  do {  // an empty batch is asked too: its options may be wrong
+    std::size_t end = begin, knots = 0;
+    while (end < count && knots + motions.knot_counts[end] <= most) {
+      knots += motions.knot_counts[end++];
+    }
+    if (end == begin && count > 0) {
+      return absl::ResourceExhaustedError(
+          absl::StrCat("knot_counts[", begin, "]: ", motions.knot_counts[begin],
+                       " knots; the server takes at most ", most, " at once"));
+    }
+    if (absl::Status status = ask(begin, end, knot); !status.ok()) return status;
+    begin = end;
+    knot += knots;
+  } while (begin < count);
+  return absl::OkStatus();
+}
+
+using Intervals = std::vector<std::vector<TimeInterval>>;
 
 }  // namespace
 
@@ -70,6 +99,32 @@ struct RemoteChecker::Impl {
     auto response = Ask(&v1::CheckService::Stub::CheckMotions, request);
     if (!response.ok()) return response.status();
     return ReadMotionReply(*response, end - begin);
+  }
+
+  absl::StatusOr<Intervals> FindPart(std::span<const Pose> T_W_L, const TimeInterval& window,
+                                     const SafeIntervalOptions& options) {
+    v1::FindSafeIntervalsRequest request;
+    request.mutable_selector()->set_lease_id(lease.id);
+    request.set_robot_id(registered.id());
+    Write(T_W_L, window, options, &request);
+    auto response = Ask(&v1::CheckService::Stub::FindSafeIntervals, request);
+    if (!response.ok()) return response.status();
+    return ReadTimeIntervals(response->intervals(), T_W_L.size() / registered.robot().links.size());
+  }
+
+  // As CheckPart.
+  absl::StatusOr<Intervals> FindPart(const MotionBatch& edges, const TimeInterval& window,
+                                     const DepartureIntervalOptions& options, std::size_t begin,
+                                     std::size_t end, std::size_t knot) {
+    v1::FindDepartureIntervalsRequest request;
+    v1::CheckMotionsRequest& motions = *request.mutable_motions();
+    motions.mutable_selector()->set_lease_id(lease.id);
+    motions.set_robot_id(registered.id());
+    Write(window, options, &request);
+    WriteMotions(edges, registered.robot().links.size(), begin, end, knot, &motions);
+    auto response = Ask(&v1::CheckService::Stub::FindDepartureIntervals, request);
+    if (!response.ok()) return response.status();
+    return ReadTimeIntervals(response->intervals(), end - begin);
   }
 
   template <class Request, class Response>
@@ -136,27 +191,52 @@ absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
 absl::StatusOr<MotionReply> RemoteChecker::CheckMotions(const MotionBatch& motions,
                                                         const MotionOptions& options) const {
   if (absl::Status status = Validate(motions, robot()); !status.ok()) return status;
-  const std::size_t most = states_per_request(), count = motions.knot_counts.size();
   MotionReply reply{version(), stamp(), {}, {}};
-  std::size_t begin = 0, knot = 0;
-  do {  // an empty batch is asked too: its options may be wrong
-    std::size_t end = begin, knots = 0;
-    while (end < count && knots + motions.knot_counts[end] <= most) {
-      knots += motions.knot_counts[end++];
-    }
-    if (end == begin && count > 0) {
-      return absl::ResourceExhaustedError(
-          absl::StrCat("knot_counts[", begin, "]: ", motions.knot_counts[begin],
-                       " knots; the server takes at most ", most, " at once"));
-    }
+  const auto ask = [&](std::size_t begin, std::size_t end, std::size_t knot) {
     auto part = impl_->CheckPart(motions, options, begin, end, knot);
     if (!part.ok()) return part.status();
     reply.horizon = part->horizon;
     reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
-    begin = end;
-    knot += knots;
-  } while (begin < count);
+    return absl::OkStatus();
+  };
+  if (auto status = InParts(motions, states_per_request(), ask); !status.ok()) return status;
   return reply;
+}
+
+absl::StatusOr<Intervals> RemoteChecker::FindSafeIntervals(
+    const std::vector<Pose>& T_W_L, const TimeInterval& window,
+    const SafeIntervalOptions& options) const {
+  const std::size_t links = robot().links.size(), most = states_per_request() * links;
+  if (T_W_L.size() % links != 0) {
+    return absl::InvalidArgumentError(absl::StrCat("world_from_link: has ", T_W_L.size(),
+                                                   " poses, no multiple of the robot's ", links,
+                                                   " links"));
+  }
+  Intervals intervals;
+  std::size_t begin = 0;
+  do {  // an empty batch is asked too: its options may be wrong
+    const auto poses = std::span(T_W_L).subspan(begin, std::min(most, T_W_L.size() - begin));
+    auto part = impl_->FindPart(poses, window, options);
+    if (!part.ok()) return part.status();
+    std::ranges::move(*part, std::back_inserter(intervals));
+    begin += poses.size();
+  } while (begin < T_W_L.size());
+  return intervals;
+}
+
+absl::StatusOr<Intervals> RemoteChecker::FindDepartureIntervals(
+    const MotionBatch& edges, const TimeInterval& window,
+    const DepartureIntervalOptions& options) const {
+  if (absl::Status status = Validate(edges, robot()); !status.ok()) return status;
+  Intervals intervals;
+  const auto ask = [&](std::size_t begin, std::size_t end, std::size_t knot) {
+    auto part = impl_->FindPart(edges, window, options, begin, end, knot);
+    if (!part.ok()) return part.status();
+    std::ranges::move(*part, std::back_inserter(intervals));
+    return absl::OkStatus();
+  };
+  if (auto status = InParts(edges, states_per_request(), ask); !status.ok()) return status;
+  return intervals;
 }
 
 const Robot& RemoteChecker::robot() const { return impl_->registered.robot(); }

@@ -5,28 +5,25 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "collision/time_window.h"
 
 namespace clearway {
 namespace {
 
-constexpr std::int64_t kLooksAtOnce = 32, kMostLooks = 100'000;
+// Of one call; so many poses take 6 MB.
+constexpr std::size_t kPosesAtOnce = 100'000, kMostLooksAtOnce = 32;
 
-absl::Status Validate(std::size_t poses, std::size_t links, const TimeInterval& window,
+absl::Status Validate(std::size_t poses, const Robot& robot, const TimeInterval& window,
                       const SafeIntervalOptions& options) {
-  if (poses % links != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("T_W_L has ", poses, " poses, no multiple of the robot's ", links, " links"));
+  if (auto status = Validate(MotionOptions{.check = options.check}, robot); !status.ok()) {
+    return status;
   }
-  if (options.look_every <= Duration::zero()) {
-    return absl::InvalidArgumentError("look_every is not above 0");
+  if (poses % robot.links.size() != 0) {
+    return absl::InvalidArgumentError(absl::StrCat("world_from_link has ", poses,
+                                                   " poses, no multiple of the robot's ",
+                                                   robot.links.size(), " links"));
   }
-  if (window.until < window.from) {
-    return absl::InvalidArgumentError("window.until is before window.from");
-  }
-  const std::int64_t looks = (window.until - window.from) / options.look_every;
-  if (looks <= kMostLooks) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("window holds ", looks, " looks; it may hold at most ", kMostLooks));
+  return ValidateWindow(window, "look_every_ns", options.look_every);
 }
 
 // Configurations that are searched side by side, each from its own time on.
@@ -39,6 +36,7 @@ class Search {
         links_(checker.robot().links.size()),
         window_(window),
         options_(options),
+        look_every_(std::min(options.look_every, window.until - window.from + Duration(1))),
         intervals_(T_W_L.size() / links_) {
     for (std::size_t c = 0; c < intervals_.size(); ++c) open_.push_back({c, window.from, {}});
   }
@@ -61,12 +59,14 @@ class Search {
 
   // At the next times of each, until one is free.
   absl::Status Look() {
+    const std::size_t looks_at_once =
+        std::clamp<std::size_t>(kPosesAtOnce / (links_ * open_.size()), 1, kMostLooksAtOnce);
     StateBatch states;
     std::vector<std::size_t> looks;
     for (const Open& o : open_) {
       looks.push_back(0);
-      for (std::int64_t i = 0; i < kLooksAtOnce; ++i) {
-        const Time t = o.next + i * options_.look_every;
+      for (std::size_t i = 0; i < looks_at_once; ++i) {
+        const Time t = o.next + static_cast<std::int64_t>(i) * look_every_;
         if (t > window_.until) break;
         ++looks.back();
         states.times.push_back(t);
@@ -80,7 +80,7 @@ class Search {
       const auto end = answer + static_cast<std::ptrdiff_t>(looks[i]);
       const auto free = std::find_if(
           answer, end, [](const StateAnswer& a) { return a.status == SpaceStatus::kFree; });
-      open_[i].next += (free - answer) * options_.look_every;
+      open_[i].next += (free - answer) * look_every_;
       open_[i].free = free == end ? std::nullopt : std::optional(open_[i].next);
       answer = end;
     }
@@ -107,7 +107,7 @@ class Search {
       const Time until = std::min(window_.until, answer->free_until);
       ++answer;
       intervals_[o.configuration].push_back({*o.free, until});
-      o.next = until + options_.look_every;
+      o.next = until + look_every_;
     }
     return absl::OkStatus();
   }
@@ -122,6 +122,7 @@ class Search {
   std::size_t links_;
   TimeInterval window_;
   const SafeIntervalOptions& options_;
+  Duration look_every_;  // no longer than it takes to leave the window
   std::vector<std::vector<TimeInterval>> intervals_;
   std::vector<Open> open_;
 };
@@ -131,8 +132,9 @@ class Search {
 absl::StatusOr<std::vector<std::vector<TimeInterval>>> FindSafeIntervals(
     const StateChecker& checker, const std::vector<Pose>& T_W_L, const TimeInterval& window,
     const SafeIntervalOptions& options) {
-  const std::size_t links = checker.robot().links.size();
-  if (auto status = Validate(T_W_L.size(), links, window, options); !status.ok()) return status;
+  if (auto status = Validate(T_W_L.size(), checker.robot(), window, options); !status.ok()) {
+    return status;
+  }
   return Search(checker, T_W_L, window, options).Run();
 }
 

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "clearway/client/connection.h"
+#include "clearway/collision/departure_intervals.h"
+#include "clearway/collision/safe_intervals.h"
 #include "clearway/collision/state_checker.h"
 
 namespace clearway {
@@ -34,6 +36,17 @@ class RemoteChecker : public StateChecker {
   // RESOURCE_EXHAUSTED for a motion of more than states_per_request knots.
   absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
                                            const MotionOptions& options) const override;
+  // What the functions of the same names answer on this checker, but searched for by the server: in
+  // one call for each states_per_request configurations or knots. The connection's deadline holds
+  // for each of them; of many, or in long windows, ask in parts.
+  absl::StatusOr<std::vector<std::vector<TimeInterval>>> FindSafeIntervals(
+      const std::vector<Pose>& T_W_L, const TimeInterval& window,
+      const SafeIntervalOptions& options) const;
+  // RESOURCE_EXHAUSTED for an edge of more than states_per_request knots.
+  absl::StatusOr<std::vector<std::vector<TimeInterval>>> FindDepartureIntervals(
+      const MotionBatch& edges, const TimeInterval& window,
+      const DepartureIntervalOptions& options) const;
+
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;

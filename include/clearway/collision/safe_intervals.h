@@ -27,9 +27,10 @@ struct SafeIntervalOptions {
 // moment, by proof (StateChecker::CheckMotions): ascending, apart from each other.
 //
 // Works on any checker; a remote one is asked about all configurations at once, in two calls for
-// each interval of the one that has the most, or more where nothing is free for long. Errors are
-// the checker's, and INVALID_ARGUMENT naming the field: poses that are no multiple of the links, a
-// window that ends before it begins or holds more than 100,000 looks, looks that are not apart.
+// each interval of the one that has the most, or more where nothing is free for long or of large
+// batches. Errors are the checker's, and INVALID_ARGUMENT naming the field: what Validate says of
+// the options, poses that are no multiple of the links, a window that ends before it begins or
+// holds more than 100,000 looks, looks that are not apart.
 absl::StatusOr<std::vector<std::vector<TimeInterval>>> FindSafeIntervals(
     const StateChecker& checker, const std::vector<Pose>& T_W_L, const TimeInterval& window,
     const SafeIntervalOptions& options);
