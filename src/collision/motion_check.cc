@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/unknown_share.h"
-
 namespace clearway {
 namespace {
 
@@ -31,10 +29,7 @@ MotionCheck::MotionCheck(const MotionContext& context, const RobotGeometry& robo
       options_(context.check.options),
       robot_(robot),
       states_(context.check, robot),
-      bounds_W_(scene_.params.bounds_W) {
-  const double limit_m = scene_.static_map_W.grid().limit_m();
-  bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
-  bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
+      stops_(context) {
   if (context.options.world_at) return;
   fastest_object_mps_ = context.index.fastest_mps() + options_.inflation_mps;
 }
@@ -75,13 +70,13 @@ void MotionCheck::SetLeg(const TimeSpan& span, const Pose* from_T_W_L, const Pos
 // than sweeps, and then no span need go beyond it.
 bool MotionCheck::Prove(MotionAnswer& answer) {
   const Duration longest = leg_.longest, shortest = leg_.shortest;
-  unknown_step_ = std::max(shortest, longest / 16);
+  stops_.Begin(leg_);
   const Duration least = std::max(Duration(1), shortest / kFiner);
   Duration length = std::min<Duration>(longest, kFirst);
   Time end = leg_.span.until;  // or the earliest contact that is known
   for (int spans = 0; answer.free_until < end && spans < kMostSpans; ++spans) {
     const TimeSpan span{answer.free_until, std::min(end, answer.free_until + length)};
-    const Stop stop = FirstStop(span);
+    const MotionStop stop = stops_.First(span);
     if (context_.check.cancelled()) return false;
     if (stop.share == kNever) {
       answer.free_until = span.until;
@@ -146,142 +141,12 @@ Duration MotionCheck::ShortestSpan() const {
   return Seconds(context_.options.contact_resolution_m / (fastest_mps + fastest_object_mps_));
 }
 
-MotionCheck::Stop MotionCheck::FirstStop(const TimeSpan& span) {
-  Stop stop;
-  for (const MovingPart& part : leg_.parts) {
-    const MovingPart::Passage passage = part.During(span);
-    StopAtStatic(part, passage, stop);
-    if (!scene_.objects.empty()) StopAtObjects(part, passage, stop);
-  }
-  if (options_.unknown == UnknownPolicy::kTolerated) StopAtUnknownShare(span, stop);
-  return stop;
-}
-
-void MotionCheck::StopAtStatic(const MovingPart& part, const MovingPart::Passage& passage,
-                               Stop& stop) const {
-  const auto [bare, slack_m] = part.InWorld(passage, 0);
-  stop.Add(LeaveBounds(bounds_W_, bare).share, slack_m);
-  Sweep sweep = bare;
-  sweep.margin_m += options_.padding_m;
-  const VoxelMap& map_W = scene_.static_map_W;
-  if (!Allowed(part.link(), kStaticLabel)) {
-    for (const Aabb& box_W : scene_.params.keep_out_W) {
-      stop.Add(TouchBox(box_W, sweep, stop.until()).share, slack_m);
-    }
-    stop.Add(TouchOccupied(map_W, sweep, stop.until()).share, slack_m);
-  }
-  if (options_.unknown != UnknownPolicy::kBlocked) return;
-  stop.Add(
-      TouchUnobserved(map_W, options_.known_free_W, sweep, stop.until(), context_.check.cancelled)
-          .share,
-      slack_m);
-}
-
-// Goes on by short steps from where unknown space is touched first, as long as the robot never lies
-// in more of it than is tolerated.
-void MotionCheck::StopAtUnknownShare(const TimeSpan& span, Stop& stop) {
-  Stop touched = stop;
-  for (const MovingPart& part : leg_.parts) {
-    const auto [bare, slack_m] = part.InWorld(part.During(span), 0);
-    const FirstTouch touch = TouchUnobserved(scene_.static_map_W, options_.known_free_W, bare,
-                                             touched.until(), context_.check.cancelled);
-    touched.Add(touch.share, slack_m);
-  }
-  const Time until = stop.share >= 1 ? span.until : span.At(stop.share);
-  const Duration least = leg_.shortest / 2;
-  for (Time t = span.At(touched.until()); touched.share < stop.share && t < until;) {
-    const TimeSpan step{t, std::min(until, t + unknown_step_)};
-    if (MostUnknownShare(step) <= options_.max_unknown_fraction) {
-      t = step.until;
-      unknown_step_ = std::min(2 * unknown_step_, leg_.longest);
-    } else if (unknown_step_ <= least || context_.check.cancelled()) {
-      const auto all = static_cast<double>((span.until - span.from).count());
-      stop = {static_cast<double>((t - span.from).count()) / all, 0};
-      return;
-    } else {
-      unknown_step_ = std::max(least, std::min(unknown_step_, step.until - step.from) / 2);
-    }
-  }
-}
-
-double MotionCheck::MostUnknownShare(const TimeSpan& span) const {
-  std::vector<Sweep> sweeps;
-  for (const MovingPart& part : leg_.parts) {
-    sweeps.push_back(part.InWorld(part.During(span), 0).sweep);
-  }
-  return MostUnknownShareOf(scene_.static_map_W, options_.known_free_W, sweeps,
-                            context_.check.cancelled);
-}
-
-void MotionCheck::StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage,
-                                Stop& stop) const {
-  const Aabb box_W = part.InWorld(passage, options_.padding_m).sweep.Box();
-  MovingBall ball = part.BallAround(passage, options_.padding_m);
-  ball.from = WorldTime(ball.from);
-  ball.until = WorldTime(ball.until);
-  context_.index.ForEachNear(box_W, ball.from, ball.until, options_.inflation_mps,
-                             [&](std::size_t i) {
-                               const MovingObject& object = *scene_.objects[i];
-                               if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
-                               if (!context_.index.MayMeet(i, ball, options_.inflation_mps)) return;
-                               StopAtObject(part, passage, i, stop);
-                             });
-}
-
-ObjectPiece MotionCheck::PieceOf(const MovingObject& object, Time from, Time until) const {
-  const Duration horizon = scene_.params.horizon;
-  const std::optional<Time>& at = context_.options.world_at;
-  return at ? HeldAt(object, *at, until, horizon) : PieceFrom(object, from, until, horizon);
-}
-
-void MotionCheck::StopAtObject(const MovingPart& part, const MovingPart::Passage& passage,
-                               std::size_t i, Stop& stop) const {
-  const TimeSpan& span = passage.span;
-  const MovingObject& object = *scene_.objects[i];
-  const auto all = static_cast<double>((span.until - span.from).count());
-  for (Time from = span.from; from < span.until;) {
-    const ObjectPiece piece = PieceOf(object, from, span.until);
-    const TimeSpan during{from, piece.until};
-    const double begins = static_cast<double>((from - span.from).count()) / all;
-    const double lasts = static_cast<double>((piece.until - from).count()) / all;
-    from = piece.until;
-    const double until = std::min(1.0, (stop.until() - begins) / lasts);
-    if (until < 0) return;
-    const double margin_m =
-        options_.padding_m + InflationOf(object, WorldTime(during.until), options_);
-    const bool all_of_it = during.from == span.from && during.until == span.until;
-    const MovingPart::Passage meanwhile = all_of_it ? passage : part.During(during);
-    if (piece.beyond_horizon) {
-      const auto [sweep, slack_m] = part.InWorld(meanwhile, margin_m);
-      const FirstTouch touch =
-          TouchBall(piece.T_W_O.translation, piece.RadiusAt(during.until), sweep, until);
-      stop.Add(begins + lasts * touch.share, slack_m);
-      continue;
-    }
-    if (object.solid->box_O.Empty()) continue;
-    const auto [sweep, slack_m] = part.InObject(meanwhile, piece, margin_m);
-    const ShapeGeometry* const solid = context_.solids[i].get();
-    const FirstTouch touch = solid != nullptr ? TouchShape(*solid, sweep, until)
-                                              : TouchOccupied(object.map_O, sweep, until);
-    stop.Add(begins + lasts * touch.share, slack_m);
-  }
-}
-
-bool MotionCheck::Allowed(int link, ObjectId object) const {
-  return context_.check.allowed_contacts.contains({link, object});
-}
-
-bool MotionCheck::Ignored(ObjectId object) const {
-  const auto& ignored = options_.ignored_objects;
-  return std::find(ignored.begin(), ignored.end(), object) != ignored.end();
-}
-
 StateAnswer MotionCheck::StateAt(Time t) {
   const double fraction = ToSeconds(t - leg_.span.from) / leg_.span.seconds();
   T_W_L_.clear();
   for (const LinkMotion& motion : leg_.links) T_W_L_.push_back(motion.At(fraction));
   StateAnswer answer;
-  states_.Answer(WorldTime(t), T_W_L_.data(), answer);
+  states_.Answer(context_.WorldTime(t), T_W_L_.data(), answer);
   return answer;
 }
 
@@ -301,10 +166,10 @@ std::optional<VoxelKey> MotionCheck::TouchedVoxel(Time t, const StateAnswer& sta
     Sweep here{PlacedShape(geometry, T_W_G), Eigen::Vector3d::Zero(), options_.padding_m};
     FirstTouch touch;
     if (object != nullptr) {
-      const PredictedPose at = PredictPose(*object, WorldTime(t), scene_.params.horizon);
+      const PredictedPose at = PredictPose(*object, context_.WorldTime(t), scene_.params.horizon);
       if (at.beyond_horizon_radius_m || object->FillsSolid(scene_.params.solid)) continue;
       here.shape_F = here.shape_F.In(Inverse(at.T_W_O));
-      here.margin_m += InflationOf(*object, WorldTime(t), options_);
+      here.margin_m += InflationOf(*object, context_.WorldTime(t), options_);
       touch = TouchOccupied(object->map_O, here, 1);
     } else if (state.status == SpaceStatus::kOccupied) {
       touch = TouchOccupied(scene_.static_map_W, here, 1);
