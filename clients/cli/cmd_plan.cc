@@ -75,6 +75,11 @@ double ArrivalOf(const Plan& plan, const PlanTask& task) {
 }
 
 std::string WhatBlocks(const StateAnswer& blocker) {
+  if (blocker.status == SpaceStatus::kBeyondHorizon) {
+    return absl::StrCat("object ", blocker.object,
+                        ", which may be anywhere there then: it is beyond the server's horizon of "
+                        "predictions (--scene-horizon-s)");
+  }
   if (blocker.object != kStaticLabel) return absl::StrCat("object ", blocker.object);
   switch (blocker.status) {
     case SpaceStatus::kOutOfBounds:
@@ -103,6 +108,19 @@ absl::Status StatusOf(const PlanOutcome& outcome, const Flags& flags) {
   }
 }
 
+const char* WordFor(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kFound:
+      return "found";
+    case PlanStatus::kStartBlocked:
+      return "start_blocked";
+    case PlanStatus::kGoalBlocked:
+      return "goal_blocked";
+    default:
+      return "not_found";
+  }
+}
+
 std::string TextOf(const std::vector<double>& configuration) {
   std::string text;
   for (const double value : configuration) {
@@ -126,6 +144,7 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
                const PlanTask& task) {
   Json json = ToJson(Versioned{outcome.version, outcome.stamp});
   json["found"] = !plans.empty();
+  json["status"] = WordFor(outcome.status);
   json["plans"] = Json::array();
   for (const Found& found : plans) {
     json["plans"].push_back(

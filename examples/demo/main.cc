@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Starts a server, replays a sequence through it, asks what is where and when, plans "
       "crossings before moving objects, and judges the plans by what really happened.\n"
-      "Example: clearway-demo --data ../shared/data/kitti0000_fov --out demo-output");
+      "Example: clearway-demo --server build/release/server/clearway-server --out demo-output");
   app.option_defaults()->always_capture_default();
   auto* const data =
       app.add_option("--data", options.data, "Folder of LiDAR scans; without it, the simulator")

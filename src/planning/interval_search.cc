@@ -52,7 +52,8 @@ void IntervalSearch::Propose(int stay, const Roadmap::Neighbor& to, double depar
   if (depart_s > from.leave_by_s || never_.contains({from.place, to.place})) return;
   const double arrival_s = depart_s + to.seconds;
   const double left_s = LeftSeconds(to.place);
-  if (arrival_s + left_s >= std::min(question_->earlier_than_s, space_.latest_s())) return;
+  const double goal_s = arrival_s + left_s;
+  if (goal_s >= question_->earlier_than_s || goal_s > space_.latest_s()) return;
   open_.push_back({arrival_s + question_->weight * left_s, stay, to, depart_s});
   std::push_heap(open_.begin(), open_.end());
 }

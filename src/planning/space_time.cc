@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "planning/space_time_sampler.h"
 
 namespace clearway {
@@ -184,6 +186,43 @@ void SpaceTimeStateSpace::sanityChecks() const {
       STATESPACE_DISTANCE_SYMMETRIC | STATESPACE_TRIANGLE_INEQUALITY | STATESPACE_DISTANCE_BOUND;
   sanityChecks(std::numeric_limits<double>::epsilon(), std::numeric_limits<float>::epsilon(),
                ~kMetricOnly);
+}
+
+namespace {
+
+absl::Status ValidateLimit(const std::string& name, double limit) {
+  if (limit > 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name, ": is ", limit, ", must be above 0"));
+}
+
+absl::Status ValidateBounds(const ob::StateSpace& space) {
+  constexpr double kWidest = 1e9;
+  if (space.isCompound()) {
+    for (const auto& part : space.as<ob::CompoundStateSpace>()->getSubspaces()) {
+      if (auto status = ValidateBounds(*part); !status.ok()) return status;
+    }
+  }
+  if (space.getType() != ob::STATE_SPACE_REAL_VECTOR) return absl::OkStatus();
+  const ob::RealVectorBounds& bounds = space.as<ob::RealVectorStateSpace>()->getBounds();
+  for (std::size_t i = 0; i < bounds.low.size(); ++i) {
+    const double low = bounds.low[i], high = bounds.high[i];
+    if (low <= high && high - low <= kWidest) continue;
+    return absl::InvalidArgumentError(absl::StrCat("bounds[", i, "]: are ", low, " to ", high,
+                                                   ", must ascend by at most ", kWidest));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status Validate(const SpaceTimeStateSpace& space) {
+  const SpeedLimits& limits = space.limits();
+  absl::Status status = ValidateLimit("limits.translation_mps", limits.translation_mps);
+  if (status.ok()) status = ValidateLimit("limits.rotation_radps", limits.rotation_radps);
+  for (std::size_t i = 0; status.ok() && i < limits.axes_per_s.size(); ++i) {
+    status = ValidateLimit(absl::StrCat("limits.axes_per_s[", i, "]"), limits.axes_per_s[i]);
+  }
+  return status.ok() ? ValidateBounds(*space.space()) : status;
 }
 
 }  // namespace clearway

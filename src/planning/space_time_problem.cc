@@ -1,13 +1,27 @@
 #include "clearway/planning/space_time_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 
 namespace clearway {
 
 namespace ob = ompl::base;
+
+namespace {
+
+// OMPL takes what is not a number for within.
+bool IsWithin(const ob::StateSpace& space, const ob::State* state) {
+  std::vector<double> reals;
+  space.copyToReals(reals, state);
+  return std::ranges::all_of(reals, [](double real) { return std::isfinite(real); }) &&
+         space.satisfiesBounds(state);
+}
+
+}  // namespace
 
 GoalPoseBefore::GoalPoseBefore(const ob::SpaceInformationPtr& si, const ob::State* start,
                                const ob::State* goal_part, const GoalOptions& options)
@@ -46,10 +60,15 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
     return absl::InvalidArgumentError(
         absl::StrCat("si: space '", si->getStateSpace()->getName(), "' has no time component"));
   }
-  if (!space_time->satisfiesBounds(start)) {
+  if (auto status = Validate(*space_time); !status.ok()) return status;
+  if (!(options.tolerance > 0)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("tolerance: is ", options.tolerance, ", must be above 0"));
+  }
+  if (!IsWithin(*space_time, start)) {
     return absl::InvalidArgumentError("start: outside the space's bounds");
   }
-  if (!space_time->space()->satisfiesBounds(goal_part)) {
+  if (!IsWithin(*space_time->space(), goal_part)) {
     return absl::InvalidArgumentError("goal_part: outside the space's bounds");
   }
   const double latest_s = options.latest
