@@ -172,8 +172,10 @@ int main(int argc, char** argv) {
   clearway::Settings settings;
   auto* where = app.add_option_group("scene", "Where the scene is");
   where->add_flag("--in-process", settings.in_process, "In this process");
-  where->add_option("--remote", settings.remote, "On the server at this address");
-  where->add_option("--mirror", settings.mirror, "Mirrored from the server at this address");
+  where->add_option("--remote", settings.remote,
+                    "On the server at this address, started with --scene-horizon-s 12");
+  where->add_option("--mirror", settings.mirror,
+                    "Mirrored from the server at this address, likewise");
   where->require_option(1);
   app.add_option("--planner", settings.planner)
       ->check(CLI::IsMember({"SafeInterval", "RRT", "EST"}));
