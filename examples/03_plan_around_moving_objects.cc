@@ -1,5 +1,6 @@
-// Plans a delivery robot's way across a road, around where the traffic will be. The scene is in
-// this process, on a server, or mirrored from one; the planning is the same.
+// Plans a delivery robot's way across a road, around where the traffic will be. One car has told
+// what it will do; of the rest, the motion tells. The scene is in this process, on a server, or
+// mirrored from one; the planning is the same.
 //
 //   03_plan_around_moving_objects --in-process
 //   clearway-server --scene-horizon-s 12 &
@@ -13,11 +14,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <numbers>
 
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/remote_checker.h"
+#include "clearway/client/scene_client.h"
 #include "clearway/client/scene_mirror.h"
 #include "clearway/collision/scene_checker.h"
 #include "clearway/planning/path_check.h"
@@ -39,18 +42,37 @@ struct Settings {
   double planning_s = 3;
 };
 
+constexpr Duration kHorizon = seconds(12);  // beyond it, whatever could have moved is not free
+constexpr Duration kTick = std::chrono::milliseconds(100);
+
 using CheckerPtr = std::shared_ptr<const StateChecker>;
+
+// The car that will brake for the robot, against what its motion says.
+constexpr ObjectId kYielding = 3;
+
+// What that car states, as another robot's planner would: where it will be, every 0.1 s.
+ObjectFuture Stated(const Simulation& simulation, const StampedPose& now) {
+  ObjectFuture future{kYielding, {}};
+  for (Time t = now.stamp + kTick; t <= now.stamp + kHorizon; t += kTick) {
+    const Pose H_W = *simulation.world().MotionOf(kYielding, now.stamp, t);
+    future.poses.push_back({t, H_W * now.T_W_O});
+  }
+  return future;
+}
 
 // A scene of our own.
 absl::StatusOr<CheckerPtr> InProcess(const Simulation& simulation, std::size_t frames,
                                      const Robot& robot) {
   ThreadPool pool(2);
   SceneParams params;
-  params.horizon = seconds(12);  // beyond it, whatever a moving object could reach is not free
+  params.horizon = kHorizon;
   SceneBuilder builder(params, FrameLimits(), pool);
   for (std::size_t k = 0; k < frames; ++k) {
     if (auto report = builder.Apply(simulation.MakeFrame(k)); !report.ok()) return report.status();
   }
+  const auto seen = builder.Publish();
+  const ObjectFuture future = Stated(simulation, seen->FindObject(kYielding)->history.back());
+  if (auto status = builder.SetFuture(future.id, future.poses); !status.ok()) return status;
   return std::make_shared<SceneChecker>(builder.Publish(), robot);
 }
 
@@ -60,24 +82,29 @@ absl::StatusOr<CheckerPtr> OnServer(const Settings& settings, const Simulation& 
   const bool mirrored = settings.remote.empty();
   auto connection = Connection::Open(mirrored ? settings.mirror : settings.remote);
   if (!connection.ok()) return connection.status();
-  std::uint64_t version = 0;  // with all our frames in it
+  SceneQuery latest;  // with all that we tell
   for (std::size_t k = 0; k < frames; ++k) {
     const auto ack = FrameSender(*connection).Push(simulation.MakeFrame(k));
     if (!ack.ok()) return ack.status();
-    version = ack->version;
+    latest.min_version = ack->version;
   }
-  if (!mirrored) return RemoteChecker::Pin(*connection, robot, {.min_version = version});
+  const SceneClient client(*connection);
+  const auto car = client.GetObject(kYielding, latest);
+  if (!car.ok()) return car.status();
+  const std::array futures{Stated(simulation, {car->t_k, car->T_W_O})};
+  const auto stated = client.SetFutures(futures);
+  if (!stated.ok()) return stated.status();
+
+  if (!mirrored) return RemoteChecker::Pin(*connection, robot, {.min_version = stated->version});
   const auto mirror = SceneMirror::Follow(*connection);
   if (!mirror.ok()) return mirror.status();
-  const auto scene = (*mirror)->WaitFor(version, seconds(10));
+  const auto scene = (*mirror)->WaitFor(stated->version, seconds(10));
   if (!scene.ok()) return scene.status();
   return std::make_shared<SceneChecker>(*scene, robot);
 }
 
-// Plans from the checker's stamp on. From here on nothing depends on where the scene is.
-absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const CheckerPtr& checker,
-                                            const Settings& settings) {
-  // Where: the road and its pavements. How: 2 m/s and 1.5 rad/s at most, done in time.
+// Where: the road and its pavements. How: 2 m/s and 1.5 rad/s at most, done in time.
+std::shared_ptr<SpaceTimeStateSpace> Space(const CrossingTask& task) {
   auto plane = std::make_shared<ob::SE2StateSpace>();
   ob::RealVectorBounds bounds(2);
   for (int axis : {0, 1}) {
@@ -86,11 +113,13 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   }
   plane->setBounds(bounds);
   const SpeedLimits limits{.translation_mps = task.max_speed_mps, .rotation_radps = 1.5};
-  auto space = std::make_shared<SpaceTimeStateSpace>(plane, limits, task.time_limit);
+  return std::make_shared<SpaceTimeStateSpace>(plane, limits, task.time_limit);
+}
 
-  // What counts as free. Beams leave holes, so some unknown space within the robot is tolerated.
-  // Traffic may not do what its motion predicts, so the robot keeps clear of everything, and of
-  // moving objects the more the longer the prediction.
+// What counts as free. Beams leave holes, so some unknown space within the robot is tolerated.
+// Traffic may not do what its motion predicts, so the robot keeps clear of everything, and of
+// moving objects the more the longer the prediction.
+PlanningOptions WhatIsFree() {
   PlanningOptions options;
   options.check.unknown = UnknownPolicy::kTolerated;
   options.check.max_unknown_fraction = 0.3;
@@ -98,6 +127,29 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   options.check.inflation_mps = 0.2;
   options.step_m = 0.1;
   options.time_step = std::chrono::milliseconds(50);
+  return options;
+}
+
+// The planner at work, and its path. Whatever of OMPL's planners goes forward in time may stand in
+// for the setup's own.
+absl::StatusOr<og::PathGeometric> Solve(og::SimpleSetup& setup, const Settings& settings) {
+  const ob::SpaceInformationPtr& si = setup.getSpaceInformation();
+  if (settings.planner == "RRT") setup.setPlanner(std::make_shared<og::RRT>(si));
+  if (settings.planner == "EST") setup.setPlanner(std::make_shared<og::EST>(si));
+  const ob::PlannerStatus solved = setup.solve(settings.planning_s);
+  const StateQuery& query = *QueryOf(*si);
+  if (!query.first_error().ok()) return query.first_error();
+  if (solved != ob::PlannerStatus::EXACT_SOLUTION) {
+    return absl::NotFoundError(settings.planner + ": no path found, " + solved.asString());
+  }
+  return setup.getSolutionPath();
+}
+
+// Plans from the checker's stamp on. From here on nothing depends on where the scene is.
+absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const CheckerPtr& checker,
+                                            const Settings& settings) {
+  const auto space = Space(task);
+  const PlanningOptions options = WhatIsFree();
   Ground ground;
   ground.clearance_m = options.check.padding_m + 0.1;  // one voxel
   const auto mapping = StateMapping::Se2(checker->robot(), ground, TimeSince{checker->stamp()});
@@ -108,25 +160,16 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   const auto setup = MakeSpaceTimeSetup(space, checker, mapping, options, start.get(),
                                         SpaceTimeStateSpace::SpacePart(goal.get()), GoalOptions());
   if (!setup.ok()) return setup.status();
-  // Whatever of OMPL's planners goes forward in time may stand in for the setup's own.
-  const ob::SpaceInformationPtr& si = (*setup)->getSpaceInformation();
-  if (settings.planner == "RRT") (*setup)->setPlanner(std::make_shared<og::RRT>(si));
-  if (settings.planner == "EST") (*setup)->setPlanner(std::make_shared<og::EST>(si));
-  const ob::PlannerStatus solved = (*setup)->solve(settings.planning_s);
-  const StateQuery& query = *QueryOf(*si);
-  if (!query.first_error().ok()) return query.first_error();
-  if (solved != ob::PlannerStatus::EXACT_SOLUTION) {
-    return absl::NotFoundError(settings.planner + ": no path found, " + solved.asString());
-  }
-  og::PathGeometric& path = (*setup)->getSolutionPath();
+  auto path = Solve(**setup, settings);
+  if (!path.ok()) return path.status();
 
-  const PathCheck check = CheckPath(path, query);
+  const PathCheck check = CheckPath(*path, *QueryOf(*(*setup)->getSpaceInformation()));
   std::printf("%s: %zu states, %s on version %llu, %.0f %% of its volume unknown\n",
-              settings.planner.c_str(), path.getStateCount(), check.free ? "free" : "blocked",
+              settings.planner.c_str(), path->getStateCount(), check.free ? "free" : "blocked",
               static_cast<unsigned long long>(checker->version()),
               100 * check.unknown_fraction.value_or(1));
-  path.interpolate(static_cast<unsigned int>(check.answers.size()));
-  return TimedPoses(path, mapping);
+  path->interpolate(static_cast<unsigned int>(check.answers.size()));
+  return TimedPoses(*path, mapping);
 }
 
 // What the plan would really have touched.
@@ -157,7 +200,8 @@ absl::Status Run(const Settings& settings) {
                 step.T_W_L.translation.x(), step.T_W_L.translation.y());
   }
   if (const auto hit = Touched(*simulation, robot, *plan)) {
-    return absl::InternalError("the plan touches object " + std::to_string(*hit));
+    return absl::InternalError("the plan touches object " + std::to_string(*hit) +
+                               ", which did not do what was predicted");
   }
   std::printf("arrives after %.2f s and touches nothing\n",
               ToSeconds(plan->back().time - (*checker)->stamp()));

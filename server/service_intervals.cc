@@ -12,8 +12,8 @@ using Intervals = absl::StatusOr<std::vector<std::vector<TimeInterval>>>;
 // find(checker) -> Intervals, on the version that is asked for.
 template <class Find, class Response>
 absl::Status Answer(ServerCore& core, const v1::SceneSelector& selector,
-                    const std::string& robot_id, const Gone& gone, Find&& find,
-                    Response* response) {
+                    const std::string& robot_id, double inflation_mps, const Gone& gone,
+                    Find&& find, Response* response) {
   const absl::StatusOr<ScenePtr> scene = core.SceneFor(selector, gone);
   if (!scene.ok()) return scene.status();
   auto checker = core.robots.CheckerFor(robot_id, *scene);
@@ -22,6 +22,7 @@ absl::Status Answer(ServerCore& core, const v1::SceneSelector& selector,
   if (!intervals.ok()) return intervals.status();
   Write(VersionOf(**scene), response->mutable_scene());
   response->set_horizon_ns((*scene)->params.horizon.count());
+  response->set_inflation_mps(inflation_mps);
   Write(*intervals, response->mutable_intervals());
   const std::uint64_t limit = core.config.limits.max_message_bytes;
   const std::uint64_t size = response->ByteSizeLong();
@@ -54,7 +55,8 @@ grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
       return clearway::FindSafeIntervals(checker, question->T_W_L, question->window,
                                          question->options);
     };
-    return Answer(core_, request->selector(), request->robot_id(), GoneOf(context), find, response);
+    return Answer(core_, request->selector(), request->robot_id(), waits.check.inflation_mps,
+                  GoneOf(context), find, response);
   });
 }
 
@@ -76,7 +78,8 @@ grpc::Status CheckHandlers::FindDepartureIntervals(grpc::ServerContext* context,
       return clearway::FindDepartureIntervals(checker, question->motions, *window,
                                               {question->options, ReadResolution(*request)});
     };
-    return Answer(core_, motions.selector(), motions.robot_id(), GoneOf(context), find, response);
+    return Answer(core_, motions.selector(), motions.robot_id(),
+                  question->options.check.inflation_mps, GoneOf(context), find, response);
   });
 }
 

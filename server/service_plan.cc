@@ -26,6 +26,7 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone&
   const auto send = [&](v1::PlanResponse& response) {
     Write(VersionOf(**scene), response.mutable_scene());
     response.set_horizon_ns((*scene)->params.horizon.count());
+    response.set_inflation_mps(task->options.check.inflation_mps);
     lost = lost || !writer.Write(response);
   };
   const auto outcome = Solve(

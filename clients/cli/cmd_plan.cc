@@ -8,6 +8,7 @@
 #include "clearway/client/remote_planner.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/report/table.h"
+#include "cli/borrowed_objects.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/scenario_file.h"
@@ -33,36 +34,6 @@ struct Flags {
   double budget_s = 1;
   bool first = false;
   bool json = false;
-};
-
-// Adds objects to a server's scene, and takes them away again.
-class BorrowedObjects {
- public:
-  explicit BorrowedObjects(SceneClient client) : client_(std::move(client)) {}
-  ~BorrowedObjects() {
-    if (!ids_.empty()) (void)client_.RemoveObjects(ids_);  // if the server is gone, so are they
-  }
-  BorrowedObjects(const BorrowedObjects&) = delete;
-  BorrowedObjects& operator=(const BorrowedObjects&) = delete;
-
-  // The version that has them.
-  absl::StatusOr<std::uint64_t> Add(const std::vector<GivenObject>& objects) {
-    if (objects.empty()) return 0;
-    const auto added = client_.AddObjects(objects);
-    if (absl::IsAlreadyExists(added.status())) {
-      return absl::AlreadyExistsError(
-          absl::StrCat(added.status().message(),
-                       "; if a plan that was interrupted left it there, 'clearway objects --remove "
-                       "ID' takes it away"));
-    }
-    if (!added.ok()) return added.status();
-    for (const GivenObject& object : objects) ids_.push_back(object.id);
-    return added->version;
-  }
-
- private:
-  SceneClient client_;
-  std::vector<ObjectId> ids_;
 };
 
 struct Found {
@@ -100,8 +71,11 @@ absl::Status StatusOf(const PlanOutcome& outcome, const Flags& flags) {
           absl::StrCat("no plan: the start is blocked by ", WhatBlocks(outcome.blocker)));
     case PlanStatus::kGoalBlocked:
       return absl::FailedPreconditionError(
-          absl::StrCat("no plan: the goal is never free, first of ", "all blocked by ",
+          absl::StrCat("no plan: the goal is never free, first of all blocked by ",
                        WhatBlocks(outcome.blocker)));
+    case PlanStatus::kNoTimeToSpare:
+      return absl::FailedPreconditionError(
+          "no plan: the straight way is not free, and the time limit leaves none for another");
     default:
       return absl::DeadlineExceededError(absl::StrCat("no plan found within ", flags.budget_s,
                                                       " s (--budget); there may be none"));
@@ -116,6 +90,8 @@ const char* WordFor(PlanStatus status) {
       return "start_blocked";
     case PlanStatus::kGoalBlocked:
       return "goal_blocked";
+    case PlanStatus::kNoTimeToSpare:
+      return "no_time_to_spare";
     default:
       return "not_found";
   }
@@ -143,6 +119,8 @@ void PrintText(std::ostream& out, const Plan& plan, const PlanTask& task) {
 void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOutcome& outcome,
                const PlanTask& task) {
   Json json = ToJson(Versioned{outcome.version, outcome.stamp});
+  json["horizon_s"] = ToSeconds(outcome.horizon);
+  json["inflation_mps"] = outcome.inflation_mps;
   json["found"] = !plans.empty();
   json["status"] = WordFor(outcome.status);
   json["plans"] = Json::array();
@@ -163,6 +141,7 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   auto scenario = LoadScenario(flags.file);
   if (!scenario.ok()) return scenario.status();
+  const SignalsBlocked blocked;
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
   const SceneClient client(*connection);

@@ -1,11 +1,15 @@
 #include "cli/scenario_objects.h"
 
+#include <cmath>
+
 #include "absl/strings/str_cat.h"
 #include "cli/json_fields.h"
 #include "cli/robot_shape.h"
 
 namespace clearway::cli {
 namespace {
+
+constexpr double kLongest_s = 1e6;
 
 // The object's frame is its shape's: what `pose` the shape has in it is added to its own.
 absl::Status ParseShape(const JsonFields& fields, const Json& value,
@@ -25,6 +29,7 @@ absl::StatusOr<StampedPose> ParseStampedPose(const Json& value, const std::strin
   if (!fields.ok()) return fields.status();
   const auto t_s = fields->Number("t_s");
   if (!t_s.ok()) return t_s.status();
+  if (std::abs(*t_s) > kLongest_s) return fields->Error("t_s", "is too long");
   const auto pose = fields->PoseOrIdentity("pose");
   if (!pose.ok()) return pose.status();
   return StampedPose{Time() + FromSeconds(*t_s), *pose};

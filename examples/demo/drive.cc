@@ -103,7 +103,7 @@ CaseResult Drive::Result(const Truth& truth) const {
   result.drive = log_;
   result.drive->arrived = Arrived();
   result.drive->cut_off = !Over();
-  result.plan = Plan{.planner = "SafeIntervalPlanner", .path = driven_};
+  result.plan = Plan{.planner = "SafeInterval", .path = driven_};
   result.verdict = Judge(truth, *result.crossing, driven_);
   return result;
 }

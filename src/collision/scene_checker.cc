@@ -83,7 +83,7 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
   if (auto status = Validate(options, robot()); !status.ok()) return status;
   if (auto status = Validate(motions, robot()); !status.ok()) return status;
   const SceneSnapshot& scene = *impl_->scene;
-  MotionReply reply{version(), stamp(), scene.params.horizon, {}};
+  MotionReply reply{version(), stamp(), scene.params.horizon, options.check.inflation_mps, {}};
   reply.answers.resize(motions.knot_counts.size());
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
                                                             options.check.allowed_contacts.end());

@@ -1,6 +1,7 @@
 #include "planning/anytime_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace clearway {
 namespace {
@@ -8,8 +9,9 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-// How many ways a search may ask about for each place before there had better be more places.
-constexpr std::size_t kWaysEach = 100;
+// How many ways a search may ask about for each place before there had better be more places: to
+// try them all takes longer than to find a path among twice as many.
+constexpr std::size_t kWaysEach = 8;
 // An arrival that is no earlier than the one before by this is no news.
 constexpr double kEarlier_s = 1e-3;
 
@@ -67,18 +69,35 @@ void AnytimeSearch::SamplePlace(ob::State* part) {
                               kNear * space_.space()->getMaximumExtent());
 }
 
+// Near any place that is known, as near as its neighbours may be in a small corner of the space or
+// in a large one.
+void AnytimeSearch::SampleNearPlaces(ob::State* part) {
+  constexpr double kNearest = 1e-5;  // of the space
+  const int place = random_.uniformInt(0, static_cast<int>(roadmap_.size()) - 1);
+  const double near = std::pow(kNearest, random_.uniform01());
+  sampler_->sampleUniformNear(part, roadmap_.Place(place),
+                              near * space_.space()->getMaximumExtent());
+}
+
+// Where hardly a place of the whole space can be visited in time, they are looked for near those
+// that can.
 bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCondition& until) {
-  constexpr std::size_t kTriesEach = 100;
+  constexpr std::size_t kTriesEach = 100, kHardly = 20;
   ob::State* const part = space_.space()->allocState();
   std::size_t added = 0;
-  for (std::size_t tries = 0; added < count && tries < kTriesEach * count && !until(); ++tries) {
-    SamplePlace(part);
+  for (std::size_t tries = 0; added < count && tries < kTriesEach * count; ++tries) {
+    if (until()) break;
+    if (tries < kHardly * (added + 1)) {
+      SamplePlace(part);
+    } else {
+      SampleNearPlaces(part);
+    }
     if (ArrivalBy(part) >= std::min(Arrival(), space_.latest_s())) continue;
     roadmap_.Add(part);
     ++added;
   }
   space_.space()->freeState(part);
-  return added > 0;
+  return added > 0 || until();
 }
 
 bool AnytimeSearch::Search(double weight, const ob::Goal& goal,

@@ -32,8 +32,8 @@ class AnytimeSearch {
   bool AddGoal(const ompl::base::State* part);
   std::size_t goals() const { return goals_.size(); }
 
-  // Adds places that can be visited on the way to an arrival earlier than the best one. Whether any
-  // was.
+  // Adds places that can be visited on the way to an arrival earlier than the best one. False
+  // if there are none.
   bool AddPlaces(std::size_t count, const ompl::base::PlannerTerminationCondition& until);
   // Whether an earlier arrival was found. `weight`: of what is left of the way.
   bool Search(double weight, const ompl::base::Goal& goal,
@@ -59,6 +59,7 @@ class AnytimeSearch {
  private:
   ompl::base::State* At(std::size_t place, double seconds) const;
   void SamplePlace(ompl::base::State* part);
+  void SampleNearPlaces(ompl::base::State* part);
   double ArrivalBy(const ompl::base::State* part) const;
 
   ompl::base::SpaceInformationPtr si_;

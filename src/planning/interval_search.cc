@@ -58,27 +58,34 @@ void IntervalSearch::Propose(int stay, const Roadmap::Neighbor& to, double depar
   std::push_heap(open_.begin(), open_.end());
 }
 
+// A greedy search comes to a safe interval once, however late.
 std::optional<double> IntervalSearch::HeldUntil(std::size_t place, double arrival_s) const {
+  const bool greedy = question_->weight > 1;
   for (const int i : stays_at_[place]) {
     const Stay& stay = stays_[i];
-    if (stay.arrival_s <= arrival_s && arrival_s <= stay.leave_by_s) return stay.leave_by_s;
+    const bool before = arrival_s < stay.arrival_s;
+    if (before && !(greedy && KnownUntil(place, arrival_s) >= stay.arrival_s)) continue;
+    if (arrival_s <= stay.leave_by_s) return stay.leave_by_s;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> IntervalSearch::KnownUntil(std::size_t place, double arrival_s) const {
+  for (const auto& [from_s, until_s] : held_[place]) {
+    if (from_s <= arrival_s && arrival_s <= until_s) return until_s;
   }
   return std::nullopt;
 }
 
 double IntervalSearch::LeaveBy(std::size_t place, double arrival_s) {
-  for (const auto& [from_s, until_s] : held_[place]) {
-    if (from_s <= arrival_s && arrival_s <= until_s) return until_s;
-  }
+  if (const auto known_s = KnownUntil(place, arrival_s)) return *known_s;
   const double until_s = checks_.FreeUntil(roadmap_.Place(place), arrival_s, space_.latest_s());
   held_[place].emplace_back(arrival_s, until_s);
   return until_s;
 }
 
 double IntervalSearch::FreeFrom(std::size_t place, double arrival_s) {
-  for (const auto& [from_s, until_s] : held_[place]) {
-    if (from_s <= arrival_s && arrival_s <= until_s) return arrival_s;
-  }
+  if (KnownUntil(place, arrival_s)) return arrival_s;
   for (const auto& [from_s, until_s] : taken_[place]) {
     if (from_s <= arrival_s && arrival_s < until_s) return until_s;
   }

@@ -35,7 +35,8 @@ class IntervalSearch {
     std::vector<std::size_t> goals;
     // Whether being at that goal then is what is wanted.
     std::function<bool(std::size_t goal, double arrival_s)> arrived;
-    double weight = 1;  // of what may be left of the way: above 1, sooner found and later there
+    // Of what may be left of the way: above 1, greedy: sooner found and later there.
+    double weight = 1;
     double earlier_than_s = std::numeric_limits<double>::infinity();
     std::size_t most_ways = std::numeric_limits<std::size_t>::max();  // to ask about
     std::function<bool()> cancelled;
@@ -59,8 +60,10 @@ class IntervalSearch {
   bool AddStay(std::size_t place, double arrival_s, int before, double departed_s);
   // Looks at the most promising candidate. Whether that reached a goal.
   bool Follow(const Candidate& candidate);
-  // Until when the place can be held, if that is known to be reached no later.
+  // Until when the place can be held by a stay that makes this arrival needless, if there is one.
   std::optional<double> HeldUntil(std::size_t place, double arrival_s) const;
+  // Until when it can be held from then on, as far as that was asked.
+  std::optional<double> KnownUntil(std::size_t place, double arrival_s) const;
   double LeaveBy(std::size_t place, double arrival_s);
   // Not before then it is worth trying to be at the place.
   double FreeFrom(std::size_t place, double arrival_s);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <ompl/base/State.h>
-#include <ompl/base/StateSampler.h>
+#include <ompl/datastructures/NearestNeighborsGNATNoThreadSafety.h>
 
 #include <vector>
 
@@ -43,14 +43,15 @@ class Roadmap {
   struct OnePlace {
     ompl::base::State* part;
     std::vector<Neighbor> joined;
-    std::vector<Neighbor> nearest;  // of those that there were
-    std::size_t looked_at = 0;      // so many
-    std::vector<Neighbor> near;     // both
+    std::size_t looked_at = 0;   // how many places there were when `near` was found
+    std::vector<Neighbor> near;  // with those joined
   };
   std::size_t NearestCount() const;
 
   const SpaceTimeStateSpace& space_;
   std::vector<OnePlace> places_;
+  ompl::NearestNeighborsGNATNoThreadSafety<std::size_t> nearest_;  // all places
+  std::vector<std::size_t> found_;                                 // of Near
 };
 
 }  // namespace clearway

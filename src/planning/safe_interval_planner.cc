@@ -16,8 +16,8 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-// What is left of the way counts so much at first, and after each path a fourth of that.
-constexpr double kGreedy = 16, kLessGreedy = 0.25;
+// What is left of the way counts so much until there is a path.
+constexpr double kGreedy = 16;
 constexpr std::size_t kMostGoals = 10;
 
 }  // namespace
@@ -113,21 +113,26 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   if (!impl_->search.has_start()) return ob::PlannerStatus::INVALID_START;
   AddGoals(until);
   if (impl_->search.goals() == 0) return ob::PlannerStatus::INVALID_GOAL;
+  // After the first path the same places are searched for the best one; after that they yield no
+  // more.
   bool more = true;
-  for (double weight = kGreedy; more && !until();) {
-    const bool earlier = impl_->search.Search(weight, *pdef_->getGoal(), until);
+  while (more && !until()) {
+    const bool first = !impl_->search.found();
+    const bool earlier = impl_->search.Search(first ? kGreedy : 1, *pdef_->getGoal(), until);
     ShowProgress();
     if (earlier) {
       AddSolution();
       impl_->search.JoinAlongPath();
-      weight = std::max(1.0, kLessGreedy * weight);
-    } else if (!until()) {
+      if (first) continue;
+    }
+    if (!until()) {
       more = impl_->search.AddPlaces(std::max<std::size_t>(first_batch_, impl_->search.places()),
                                      until);
     }
   }
   if (impl_->search.found()) return ob::PlannerStatus::EXACT_SOLUTION;
-  if (!more || impl_->search.GoalsAreTaken()) return ob::PlannerStatus::INVALID_GOAL;
+  if (impl_->search.GoalsAreTaken()) return ob::PlannerStatus::INVALID_GOAL;
+  if (!more) return ob::PlannerStatus::ABORT;
   return ob::PlannerStatus::TIMEOUT;
 }
 

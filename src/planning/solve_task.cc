@@ -18,6 +18,8 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
+// Less than this and nothing has to be driven: times are whole nanoseconds.
+constexpr double kThere_s = 1e-6;
 // How finely paths are cut for Plan::motion where links go on curves.
 constexpr double kLeg_m = 0.0125;
 
@@ -34,17 +36,17 @@ class Work {
     return query_.CheckState(setup_->getProblemDefinition()->getStartState(0));
   }
   absl::Status first_error() const { return query_.first_error(); }
-  // The goal is where the start is: nothing has to be driven.
+  // The goal is where the start is.
   bool IsThere() const {
     const auto& space = *setup_->getStateSpace()->as<SpaceTimeStateSpace>();
     const ob::State* const start = setup_->getProblemDefinition()->getStartState(0);
-    return space.space()->equalStates(SpaceTimeStateSpace::SpacePart(start),
-                                      setup_->getGoal()->as<GoalPoseBefore>()->goal_part());
+    return space.MinSeconds(SpaceTimeStateSpace::SpacePart(start),
+                            setup_->getGoal()->as<GoalPoseBefore>()->goal_part()) < kThere_s;
   }
 
-  // Whether anything was found; each plan goes to `found`.
-  bool Plan(const ob::PlannerTerminationCondition& until,
-            const std::function<void(const clearway::Plan&)>& found) {
+  // kFound, kNotFound or kNoTimeToSpare; each plan goes to `found`.
+  PlanStatus Plan(const ob::PlannerTerminationCondition& until,
+                  const std::function<void(const clearway::Plan&)>& found) {
     bool any = false;
     setup_->getProblemDefinition()->setIntermediateSolutionCallback(
         [&](const ob::Planner*, const std::vector<const ob::State*>& goal_to_start, ob::Cost) {
@@ -55,9 +57,13 @@ class Work {
           found(*plan);
         });
     setup_->setup();
-    setup_->getPlanner()->solve(until);  // the set-up's own would print
-    return any;
+    const ob::PlannerStatus end = setup_->getPlanner()->solve(until);  // the set-up's would print
+    if (any) return PlanStatus::kFound;
+    return end == ob::PlannerStatus::ABORT ? PlanStatus::kNoTimeToSpare : PlanStatus::kNotFound;
   }
+
+  // As of the last motion that was asked about.
+  Duration horizon() const { return horizon_; }
 
   // What is in the way at the goal at all times at which it could be reached; none if it is free at
   // one of them.
@@ -97,8 +103,9 @@ class Work {
     return plan;
   }
 
-  bool IsProved(const MotionBatch& motion) const {
+  bool IsProved(const MotionBatch& motion) {
     const auto reply = checker_->CheckMotions(motion, task_.options);
+    if (reply.ok()) horizon_ = reply->horizon;
     return reply.ok() && reply->version == checker_->version() && reply->answers.size() == 1 &&
            reply->answers[0].status == SpaceStatus::kFree;
   }
@@ -122,6 +129,7 @@ class Work {
   std::shared_ptr<const StateChecker> checker_;
   og::SimpleSetupPtr setup_;
   const StateQuery& query_;  // of the setup
+  Duration horizon_{};
 };
 
 }  // namespace
@@ -136,6 +144,7 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   PlanOutcome outcome;
   outcome.version = checker->version();
   outcome.stamp = checker->stamp();
+  outcome.inflation_mps = task.options.check.inflation_mps;
   const StateAnswer start = work.AtStart();
   if (auto error = work.first_error(); !error.ok()) return error;
   if (start.status != SpaceStatus::kFree) {
@@ -150,10 +159,9 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   }
   const ob::PlannerTerminationCondition until(
       [&] { return cancelled() || std::chrono::steady_clock::now() >= end; });
-  if (work.Plan(until, found)) {
-    outcome.status = PlanStatus::kFound;
-    return outcome;
-  }
+  outcome.status = work.Plan(until, found);
+  outcome.horizon = work.horizon();
+  if (outcome.status == PlanStatus::kFound) return outcome;
   if (auto error = work.first_error(); !error.ok()) return error;
   const auto blocker = work.BlockerOfGoal();
   if (!blocker.ok()) return blocker.status();

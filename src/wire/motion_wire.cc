@@ -77,6 +77,7 @@ absl::StatusOr<MotionBatch> ReadMotions(const v1::CheckMotionsRequest& proto, st
 void Write(const MotionReply& reply, v1::CheckMotionsResponse* proto) {
   Write(Versioned{reply.version, reply.stamp}, proto->mutable_scene());
   proto->set_horizon_ns(reply.horizon.count());
+  proto->set_inflation_mps(reply.inflation_mps);
   for (const MotionAnswer& answer : reply.answers) {
     const MotionWitness witness = answer.witness.value_or(MotionWitness{});
     const VoxelKey voxel = witness.voxel.value_or(VoxelKey{});
@@ -99,7 +100,8 @@ absl::StatusOr<MotionReply> ReadMotionReply(const v1::CheckMotionsResponse& prot
         "the server's reply does not have one answer for each of ", motions, " motions"));
   }
   const Versioned scene = ReadVersion(proto.scene());
-  MotionReply reply{scene.version, scene.stamp, Duration(proto.horizon_ns()), {}};
+  MotionReply reply{
+      scene.version, scene.stamp, Duration(proto.horizon_ns()), proto.inflation_mps(), {}};
   reply.answers.resize(motions);
   for (int m = 0; m < proto.statuses_size(); ++m) {
     MotionAnswer& answer = reply.answers[m];

@@ -17,6 +17,7 @@ constexpr std::pair<PlanStatus, v1::PlanStatus> kStatuses[] = {
     {PlanStatus::kNotFound, v1::PLAN_STATUS_NOT_FOUND},
     {PlanStatus::kStartBlocked, v1::PLAN_STATUS_START_BLOCKED},
     {PlanStatus::kGoalBlocked, v1::PLAN_STATUS_GOAL_BLOCKED},
+    {PlanStatus::kNoTimeToSpare, v1::PLAN_STATUS_NO_TIME_TO_SPARE},
 };
 
 void WriteSpace(const ConfigurationSpace& space, v1::PlanRequest* proto) {
@@ -165,6 +166,8 @@ absl::StatusOr<Plan> ReadPlan(const v1::PlannedPath& proto, const PlanTask& task
 
 void Write(const PlanOutcome& outcome, v1::PlanResponse* proto) {
   Write(Versioned{outcome.version, outcome.stamp}, proto->mutable_scene());
+  proto->set_horizon_ns(outcome.horizon.count());
+  proto->set_inflation_mps(outcome.inflation_mps);
   for (const auto& [status, on_the_wire] : kStatuses) {
     if (status == outcome.status) proto->set_status(on_the_wire);
   }
@@ -179,6 +182,8 @@ PlanOutcome ReadOutcome(const v1::PlanResponse& proto) {
   PlanOutcome outcome;
   outcome.version = scene.version;
   outcome.stamp = scene.stamp;
+  outcome.horizon = Duration(proto.horizon_ns());
+  outcome.inflation_mps = proto.inflation_mps();
   for (const auto& [status, on_the_wire] : kStatuses) {
     if (on_the_wire == proto.status()) outcome.status = status;
   }

@@ -1,6 +1,7 @@
 // The tool against a real server that has seen a small simulated drive.
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -100,10 +101,21 @@ TEST_F(CliServer, APlanIsAPathInTime) {
   ASSERT_FALSE(dut["plans"].empty());
   const double arrival_s = dut["plans"].back()["arrival_s"];
   EXPECT_GE(arrival_s, 15.4);
+  EXPECT_EQ(dut["horizon_s"], 5);
+  EXPECT_EQ(dut["inflation_mps"], 0);
   const json& path = dut["path"];
   EXPECT_EQ(path.front()["t_s"], 0);
   EXPECT_EQ(path.front()["configuration"], json({-5.0, 0.0}));
   EXPECT_EQ(path.back()["t_s"], arrival_s);
+}
+
+TEST_F(CliServer, AnInterruptedPlanTakesItsObjectsAway) {
+  const std::string file = std::string(CLEARWAY_SCENARIOS) + "/one_door.json";
+  const Finished dut = InterruptProgram(
+      {CLEARWAY_BINARY, "plan", file, "--budget", "20", "--server", server_->address()},
+      [&] { return !Ask({"objects"})["objects"].empty(); });
+  EXPECT_EQ(dut.exit_code, 128 + SIGINT) << dut.err;
+  EXPECT_EQ(Ask({"objects"})["objects"], json::array());
 }
 
 TEST_F(CliServer, NoPlanSaysWhy) {

@@ -103,6 +103,7 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("cylinder:0.3,1", "cylinder:0.3", "cylinder:0.3");
   expect("\"id\": 3", "\"id\": 3.5", "objects[0].id: expected a whole number");
   expect("\"t_s\": 10, ", "", "objects[0].future[0].t_s: missing");
+  expect("\"t_s\": 10, ", "\"t_s\": 1e15, ", "objects[0].future[0].t_s: is too long");
   expect("\"radius_m\": 0.5", "\"radius_m\": -1", "objects[1].shape.radius_m");
 }
 

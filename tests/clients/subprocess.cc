@@ -3,8 +3,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "support/temporary_folder.h"
 
@@ -32,9 +35,9 @@ void Redirect(const std::filesystem::path& file, const char* mode, FILE* stream)
   if (freopen(file.c_str(), mode, stream) == nullptr) _exit(127);
 }
 
-}  // namespace
-
-Finished RunProgram(const std::vector<std::string>& arguments, const std::string& input) {
+// `meanwhile(pid)` is called once it runs.
+Finished Run(const std::vector<std::string>& arguments, const std::string& input,
+             const std::function<void(pid_t)>& meanwhile) {
   const TemporaryFolder folder;
   folder.Write("in", input);
   const pid_t pid = fork();
@@ -44,11 +47,28 @@ Finished RunProgram(const std::vector<std::string>& arguments, const std::string
     Redirect(folder / "err", "w", stderr);
     Exec(arguments);
   }
+  meanwhile(pid);
   Finished finished;
   finished.exit_code = WaitFor(pid);
   finished.out = BytesOf(folder / "out");
   finished.err = BytesOf(folder / "err");
   return finished;
+}
+
+}  // namespace
+
+Finished RunProgram(const std::vector<std::string>& arguments, const std::string& input) {
+  return Run(arguments, input, [](pid_t) {});
+}
+
+Finished InterruptProgram(const std::vector<std::string>& arguments,
+                          const std::function<bool()>& now) {
+  return Run(arguments, "", [&](pid_t pid) {
+    for (int look = 0; look < 1000 && !now(); ++look) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    kill(pid, SIGINT);
+  });
 }
 
 }  // namespace clearway

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct Finished {
 
 // Runs a program to its end.
 Finished RunProgram(const std::vector<std::string>& arguments, const std::string& input = "");
+
+// The same, with SIGINT as soon as `now` says so, which is asked every 10 ms
+// for 10 s.
+Finished InterruptProgram(const std::vector<std::string>& arguments,
+                          const std::function<bool()>& now);
 
 // In a child process: becomes the program, or ends with 127.
 [[noreturn]] void Exec(const std::vector<std::string>& arguments);

@@ -183,7 +183,7 @@ TEST_F(CommonRoadTracks, FilesCutOffOrDeepAreErrors) {
 
 TEST(RealCommonRoadTracks, ReadsAHighway) {
   const auto folder = DataPath("commonroad");
-  if (!folder) GTEST_SKIP();
+  if (!folder) GTEST_SKIP() << "no recorded data";
   const DataVariable data(folder->parent_path());
   const auto dut = ParseTracks(
       Json::parse(R"({"format": "commonroad", "file": "commonroad/USA_US101-4_1_T-1.xml",

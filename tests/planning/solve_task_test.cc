@@ -86,6 +86,8 @@ void ExpectGood(const Solved& solved, const ScenePtr& scene, const Robot& robot,
   ASSERT_EQ(solved.outcome->status, PlanStatus::kFound);
   ASSERT_FALSE(solved.plans.empty());
   EXPECT_EQ(solved.outcome->version, scene->version);
+  EXPECT_EQ(solved.outcome->horizon, scene->params.horizon);
+  EXPECT_EQ(solved.outcome->inflation_mps, task.options.check.inflation_mps);
   const SceneChecker checker(scene, robot);
   for (std::size_t p = 0; p < solved.plans.size(); ++p) {
     const Plan& plan = solved.plans[p];
@@ -113,6 +115,40 @@ TEST(SolveTask, GoesStraightWhereNothingIs) {
   const Solved solved = SolveFor(8.0005, scene, Disc(), task);
   ExpectGood(solved, scene, Disc(), task);
   EXPECT_NEAR(ToSeconds(solved.plans.back().times.back() - task.start_time), 8, 1e-3);
+}
+
+// Of a large place hardly anything can be visited on a short way.
+TEST(SolveTask, FindsAShortWayInALargePlace) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4, 2}}, Pose::Translation(0, 0, 0));
+  const ScenePtr scene = world.Scene();
+  PlanTask task = AcrossThePlace();
+  task.area_W = {{-2000, -2000, 0}, {2000, 2000, 0}};
+  task.start = {-1, 0};
+  task.goal = {1, 0};
+  task.time_limit = seconds(10);
+  ExpectGood(SolveFor(6.5, scene, Disc(), task), scene, Disc(), task);
+}
+
+TEST(SolveTask, SaysThatTheTimeIsTooShortForAWayRound) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4, 2}}, Pose::Translation(0, 0, 0));
+  PlanTask task = AcrossThePlace();
+  task.time_limit = seconds(8);
+  const Solved solved = SolveIn(world.Scene(), Disc(), task);
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kNoTimeToSpare);
+}
+
+TEST(SolveTask, IsAtAGoalThatIsHardlyAway) {
+  PlanTask task = AcrossThePlace();
+  for (const double away_m : {0.0, 1e-10, 1e-9, 1e-7, 2e-6, 1e-3}) {
+    task.goal = {task.start[0] + away_m, task.start[1]};
+    const Solved solved = SolveIn(TestWorld().Scene(), Disc(), task);
+    ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+    EXPECT_EQ(solved.outcome->status, PlanStatus::kFound) << away_m;
+    ASSERT_FALSE(solved.plans.empty()) << away_m;
+  }
 }
 
 TEST(SolveTask, WaitsForADoorThatOpens) {

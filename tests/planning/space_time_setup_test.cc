@@ -35,7 +35,7 @@ struct Problem {
     ob::RealVectorBounds bounds(2);
     bounds.low.assign(2, low);
     bounds.high.assign(2, high);
-    const_cast<ob::RealVectorBounds&>(plane->getBounds()) = bounds;  // OMPL's setter asserts
+    const_cast<ob::RealVectorBounds&>(plane->getBounds()) = bounds;  // OMPL's setter throws
     return MakeSpaceTimeSetup(
         space, std::make_shared<DiscChecker>(DeliveryRobot(), std::vector<MovingDisc>()),
         StateMapping::R2(DeliveryRobot(), {}, TimeSince{Time()}), {}, from.get(),

@@ -31,7 +31,7 @@ class RecordingChecker : public StateChecker {
     MotionAnswer free;
     free.status = SpaceStatus::kFree;
     return MotionReply{
-        answer_version, Time(), {}, std::vector<MotionAnswer>(motions.knot_counts.size(), free)};
+        answer_version, Time(), {}, 0, std::vector<MotionAnswer>(motions.knot_counts.size(), free)};
   }
   const Robot& robot() const override { return robot_; }
   std::uint64_t version() const override { return 7; }

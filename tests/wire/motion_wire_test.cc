@@ -71,6 +71,7 @@ TEST(MotionWire, RepliesComeBack) {
   const MotionReply reply{5,
                           TimeFromNanoseconds(6),
                           Duration(7),
+                          0.25,
                           {{SpaceStatus::kFree, until, std::nullopt},
                            {SpaceStatus::kUnresolved, from, std::nullopt},
                            {SpaceStatus::kOccupied, from, {{from, until, 1, 3, {{-1, 2, -3}}}}},
@@ -82,6 +83,7 @@ TEST(MotionWire, RepliesComeBack) {
   EXPECT_EQ(dut->version, 5u);
   EXPECT_EQ(dut->stamp, reply.stamp);
   EXPECT_EQ(dut->horizon, reply.horizon);
+  EXPECT_EQ(dut->inflation_mps, 0.25);
   for (std::size_t m = 0; m < 4; ++m) {
     const MotionAnswer &answer = dut->answers[m], &expected = reply.answers[m];
     EXPECT_EQ(answer.status, expected.status);
@@ -98,7 +100,7 @@ TEST(MotionWire, RepliesComeBack) {
 
 TEST(MotionWire, AReplyOfTheWrongLengthIsNoAnswer) {
   v1::CheckMotionsResponse good;
-  Write(MotionReply{1, Time{}, {}, {MotionAnswer{}}}, &good);
+  Write(MotionReply{1, Time{}, {}, 0, {MotionAnswer{}}}, &good);
   EXPECT_TRUE(ReadMotionReply(good, 1).ok());
   EXPECT_TRUE(absl::IsInternal(ReadMotionReply(good, 2).status()));
   v1::CheckMotionsResponse bad = good;

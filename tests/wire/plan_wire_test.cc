@@ -81,11 +81,14 @@ TEST(PlanWire, ArmsComeBack) {
 }
 
 TEST(PlanWire, OutcomesComeBack) {
-  for (const PlanStatus status : {PlanStatus::kFound, PlanStatus::kNotFound,
-                                  PlanStatus::kStartBlocked, PlanStatus::kGoalBlocked}) {
+  for (const PlanStatus status :
+       {PlanStatus::kFound, PlanStatus::kNotFound, PlanStatus::kStartBlocked,
+        PlanStatus::kGoalBlocked, PlanStatus::kNoTimeToSpare}) {
     PlanOutcome outcome;
     outcome.version = 7;
     outcome.stamp = TimeFromNanoseconds(8);
+    outcome.horizon = Duration(9);
+    outcome.inflation_mps = 0.25;
     outcome.status = status;
     outcome.blocker.status = SpaceStatus::kOccupied;
     outcome.blocker.link = 2;
@@ -95,6 +98,8 @@ TEST(PlanWire, OutcomesComeBack) {
     const PlanOutcome dut = ReadOutcome(proto);
     EXPECT_EQ(dut.version, 7u);
     EXPECT_EQ(dut.stamp, outcome.stamp);
+    EXPECT_EQ(dut.horizon, outcome.horizon);
+    EXPECT_EQ(dut.inflation_mps, 0.25);
     EXPECT_EQ(dut.status, status);
     EXPECT_EQ(dut.blocker.status, SpaceStatus::kOccupied);
     EXPECT_EQ(dut.blocker.link, 2);

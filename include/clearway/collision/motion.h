@@ -64,6 +64,7 @@ struct MotionReply {
   std::uint64_t version = 0;
   Time stamp;
   Duration horizon{};
+  double inflation_mps = 0;
   std::vector<MotionAnswer> answers;  // one per motion, in their order
 };
 

@@ -77,15 +77,19 @@ struct Plan {
 
 enum class PlanStatus {
   kFound,
-  kNotFound,      // within the time that there was to think, or because nothing is left to try
-  kStartBlocked,  // at the start time
-  kGoalBlocked,   // at all times at which it could be reached
+  kNotFound,       // within the time that there was to think
+  kStartBlocked,   // at the start time
+  kGoalBlocked,    // at all times at which it could be reached
+  kNoTimeToSpare,  // the straight way is not free, and the time limit leaves none for another
 };
 
-// How a search ended. A plain value.
+// How a search ended. Its plans are proved free on this version, with predictions within the
+// horizon, and with the options' inflation. A plain value.
 struct PlanOutcome {
-  std::uint64_t version = 0;  // of the scene that all of it was checked on
+  std::uint64_t version = 0;
   Time stamp;
+  Duration horizon{};  // zero if nothing was proved
+  double inflation_mps = 0;
   PlanStatus status = PlanStatus::kNotFound;
   StateAnswer blocker;  // what is in the way, if the start or the goal is blocked
 };

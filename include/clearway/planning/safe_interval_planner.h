@@ -51,10 +51,10 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   void SetFirstBatch(unsigned int places) { first_batch_ = places; }
   unsigned int GetFirstBatch() const { return first_batch_; }
 
-  // INVALID_START or INVALID_GOAL if none is valid, or if the goal is too far for the latest time;
-  // TIMEOUT if `until` held before a path was found; else EXACT_SOLUTION, with the earliest arrival
-  // found when `until` held, or with one that no path can beat. Gives the problem the objective
-  // EarliestArrivalObjective if it has none.
+  // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and the
+  // latest time leaves none for another; TIMEOUT if `until` held before a path was found; else
+  // EXACT_SOLUTION, with the earliest arrival found when `until` held, or with one that no path can
+  // beat. Gives the problem the objective EarliestArrivalObjective if it has none.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
   void setup() override;

@@ -13,7 +13,7 @@ namespace clearway {
 // Plans for the checker's robot on its scene version, with SafeIntervalPlanner, for at most
 // `budget` of wall clock time or until `cancelled` (asked now and then) says so: each plan that
 // arrives earlier than all before it goes to `found`, the last one is the best. A plan's
-// motion is proved free before it is shown. It ends early if nothing is left to try.
+// motion is proved free before it is shown.
 //
 // INVALID_ARGUMENT as Validate(task) and for a start in the scene's past; OUT_OF_RANGE if the goal
 // cannot be reached within the time limit at full speed; else the first failure of the checker, if
