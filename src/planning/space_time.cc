@@ -101,7 +101,7 @@ SpaceTimeStateSpace::SpaceTimeStateSpace(ob::StateSpacePtr space, SpeedLimits li
   setName("SpaceTime" + getName());
   addSubspace(std::move(space), 1 - time_weight);
   auto time = std::make_shared<ob::TimeStateSpace>();
-  time->setBounds(0, ToSeconds(latest));
+  time->setBounds(0, std::max(0.0, ToSeconds(latest)));  // it throws at less
   addSubspace(time, time_weight);
   lock();
 }
@@ -222,6 +222,7 @@ absl::Status Validate(const SpaceTimeStateSpace& space) {
   for (std::size_t i = 0; status.ok() && i < limits.axes_per_s.size(); ++i) {
     status = ValidateLimit(absl::StrCat("limits.axes_per_s[", i, "]"), limits.axes_per_s[i]);
   }
+  if (status.ok()) status = ValidateLimit("latest", space.latest_s());
   return status.ok() ? ValidateBounds(*space.space()) : status;
 }
 

@@ -52,6 +52,13 @@ std::string Refusal(const std::function<void(Problem&)>& change) {
   return std::string(setup.status().message());
 }
 
+TEST(SpaceTimeSetup, RefusesALatestTimeThatIsNotAboveZero) {
+  for (const int bad_s : {0, -1}) {
+    EXPECT_THAT(Refusal([=](Problem& p) { p.latest = std::chrono::seconds(bad_s); }),
+                HasSubstr("latest"));
+  }
+}
+
 TEST(SpaceTimeSetup, RefusesSpeedsThatAreNotAboveZero) {
   for (const double bad : {0.0, -1.0, kNan}) {
     EXPECT_THAT(Refusal([=](Problem& p) { p.limits.translation_mps = bad; }),

@@ -39,7 +39,7 @@ struct SpeedLimits {
 class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
  public:
   // Times run from 0 to `latest`, seconds after whatever epoch the caller chooses (TimeSince).
-  // latest > 0 (else OMPL throws) and limits > 0, of as many axes as R^n has. The distance weighs a
+  // latest > 0 and limits > 0 (see Validate), of as many axes as R^n has. The distance weighs a
   // metre (or radian, as `space` does) as `1 - time_weight` and a second as `time_weight`.
   SpaceTimeStateSpace(ompl::base::StateSpacePtr space, SpeedLimits limits, Duration latest,
                       double time_weight = 0.5);
@@ -103,8 +103,8 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   OwnedState focus_goal_part_;
 };
 
-// INVALID_ARGUMENT naming what planners cannot work with: limits that are not above 0, bounds of
-// R^n that are not finite, not ascending or more than 1e9 apart.
+// INVALID_ARGUMENT naming what planners cannot work with: limits or a latest time that are not above
+// 0, bounds of R^n that are not finite, not ascending or more than 1e9 apart.
 absl::Status Validate(const SpaceTimeStateSpace& space);
 
 }  // namespace clearway
