@@ -18,8 +18,9 @@ absl::StatusOr<std::uint64_t> BorrowedObjects::Add(const std::vector<GivenObject
   if (absl::IsAlreadyExists(added.status())) {
     return absl::AlreadyExistsError(
         absl::StrCat(added.status().message(),
-                     "; another plan may be using it, or have left it there when it was killed: "
-                     "'clearway objects --remove ID' takes it away"));
+                     "; frames may have brought it ('clearway reset' empties the scene), another "
+                     "plan may be using it, or have left it there when it was killed ('clearway "
+                     "objects --remove ID' takes it away)"));
   }
   if (!added.ok()) return added.status();
   for (const GivenObject& object : objects) ids_.push_back(object.id);

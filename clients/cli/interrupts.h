@@ -8,8 +8,8 @@
 
 namespace clearway::cli {
 
-// While it lives, SIGINT and SIGTERM wait, for this thread and those that it starts: make it before
-// all others.
+// While it lives, SIGINT, SIGTERM and SIGHUP wait, for this thread and those that it starts: make
+// it before all others.
 class SignalsBlocked {
  public:
   SignalsBlocked();

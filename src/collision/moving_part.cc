@@ -46,7 +46,7 @@ MovingPart::Passage MovingPart::During(const TimeSpan& span) const {
           LinkAt(span.until) * center_L_,
           LinkAt(span.Middle()).rotation,
           center_mps2_ * seconds * seconds / 8,
-          turning_mps() * seconds / 2};
+          turning_mps() * span.half_seconds()};
 }
 
 LooseSweep MovingPart::InWorld(const Passage& passage, double margin_m) const {
@@ -74,7 +74,7 @@ LooseSweep MovingPart::InObject(const Passage& passage, const ObjectPiece& objec
   const double acceleration = center_mps2_ + velocity_O.angular.cross(velocity_O.linear).norm() +
                               2 * spin_radps * apart_mps + spin_radps * spin_radps * apart_m;
   const double strays_m = acceleration * seconds * seconds / 8;
-  const double turns_m = passage.turns_m + radius_m_ * spin_radps * seconds / 2;
+  const double turns_m = passage.turns_m + radius_m_ * spin_radps * span.half_seconds();
   const Eigen::Quaterniond R_O_W = object.At(span.Middle()).rotation.conjugate();
   return SweepOf(from_O, until_O, R_O_W * passage.R_W_L, margin_m, strays_m + turns_m);
 }

@@ -14,8 +14,9 @@ struct TimeSpan {
   Time from, until;
 
   double seconds() const { return ToSeconds(until - from); }
-  Time Middle() const { return from + (until - from) / 2; }
-  Time At(double share) const {  // rounded down
+  Time Middle() const { return from + (until - from) / 2; }            // rounded down
+  double half_seconds() const { return ToSeconds(until - Middle()); }  // the longer half
+  Time At(double share) const {                                        // rounded down
     return from +
            Duration(static_cast<std::int64_t>(share * static_cast<double>((until - from).count())));
   }

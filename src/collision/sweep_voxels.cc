@@ -134,8 +134,12 @@ FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known
   KeyRange keys;
   if (!KeysTouching(map_F.grid(), sweep.Box(), keys)) return {};
   Search search(map_F.grid(), sweep, until);
+  constexpr int kBlocksToAsk = 64;  // to ask takes as long as to look
+  std::int64_t blocks = 0;
   AnyBlock(map_F.blocks(), BlockOf(keys.min), BlockOf(keys.max),
            [&](BlockKey key, const VoxelBlock* block) {
+             const bool ask = ++blocks % kBlocksToAsk == 0;
+             if (search.until() < 0 || (ask && cancelled())) return true;
              BlockMask voxels = RangeInBlock(key, keys).All();
              if (block != nullptr) voxels.Subtract(block->observed);
              if (!voxels.Any() || search.Misses(key)) return false;
@@ -147,7 +151,7 @@ FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known
                });
              }
              search.Look(key, voxels);
-             return cancelled();
+             return false;
            });
   return search.found();
 }

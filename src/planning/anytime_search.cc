@@ -124,14 +124,9 @@ void AnytimeSearch::JoinAlongPath() {
   }
 }
 
-bool AnytimeSearch::GoalsAreTaken() const {
-  constexpr int kLooks = 100;
-  for (int look = 0; look <= kLooks; ++look) {
-    for (const std::size_t goal : goals_) {
-      if (si_->isValid(At(goal, space_.latest_s() * look / kLooks))) return false;
-    }
-  }
-  return true;
+bool AnytimeSearch::GoalsAreTaken() {
+  return std::ranges::none_of(
+      goals_, [&](std::size_t goal) { return checks_.IsEverFree(roadmap_.Place(goal)); });
 }
 
 std::shared_ptr<og::PathGeometric> AnytimeSearch::Path() const {

@@ -46,7 +46,7 @@ class AnytimeSearch {
   }
   std::shared_ptr<ompl::geometric::PathGeometric> Path() const;
   // Whether no goal is free, whenever one looks.
-  bool GoalsAreTaken() const;
+  bool GoalsAreTaken();
 
   std::size_t places() const { return roadmap_.size(); }
   std::size_t ways_asked() const { return checks_.ways_asked(); }

@@ -31,7 +31,7 @@ struct SafeIntervalPlanner::Impl {
 
   ob::SpaceInformationPtr si;
   AnytimeSearch search;
-  std::vector<ob::State*> shown;  // owned; by getPlannerData
+  std::vector<ob::State*> shown;  // owned; by all calls of getPlannerData
 };
 
 EarliestArrivalObjective::EarliestArrivalObjective(const ob::SpaceInformationPtr& si)
@@ -153,10 +153,9 @@ void SafeIntervalPlanner::getPlannerData(ob::PlannerData& data) const {
   ob::Planner::getPlannerData(data);
   if (!impl_) return;
   const std::vector<Stay>& stays = impl_->search.stays();
-  for (ob::State* state : impl_->shown) si_->freeState(state);
-  impl_->shown.clear();
+  const std::size_t before = impl_->shown.size();  // of data that may still be in use
   const auto vertex = [&](int stay) {
-    return ob::PlannerDataVertex(impl_->shown[static_cast<std::size_t>(stay)], stay);
+    return ob::PlannerDataVertex(impl_->shown[before + static_cast<std::size_t>(stay)], stay);
   };
   for (int i = 0; i < static_cast<int>(stays.size()); ++i) {
     impl_->shown.push_back(si_->cloneState(impl_->search.BeginOf(stays[i])));

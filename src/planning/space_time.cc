@@ -190,19 +190,26 @@ void SpaceTimeStateSpace::sanityChecks() const {
 
 namespace {
 
+constexpr double kLongest_s = 3e9;  // nearly a century; StateMapping knows no more
+
 absl::Status ValidateLimit(const std::string& name, double limit) {
   if (limit > 0) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(name, ": is ", limit, ", must be above 0"));
 }
 
-absl::Status ValidateBounds(const ob::StateSpace& space) {
+absl::Status ValidatePart(const ob::StateSpace& space, const SpeedLimits& limits) {
   constexpr double kWidest = 1e9;
   if (space.isCompound()) {
     for (const auto& part : space.as<ob::CompoundStateSpace>()->getSubspaces()) {
-      if (auto status = ValidateBounds(*part); !status.ok()) return status;
+      if (auto status = ValidatePart(*part, limits); !status.ok()) return status;
     }
   }
   if (space.getType() != ob::STATE_SPACE_REAL_VECTOR) return absl::OkStatus();
+  const std::size_t axes = limits.axes_per_s.size();
+  if (axes != 0 && axes != space.getDimension()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "limits.axes_per_s: has ", axes, " limits; R^n has ", space.getDimension(), " axes"));
+  }
   const ob::RealVectorBounds& bounds = space.as<ob::RealVectorStateSpace>()->getBounds();
   for (std::size_t i = 0; i < bounds.low.size(); ++i) {
     const double low = bounds.low[i], high = bounds.high[i];
@@ -223,7 +230,11 @@ absl::Status Validate(const SpaceTimeStateSpace& space) {
     status = ValidateLimit(absl::StrCat("limits.axes_per_s[", i, "]"), limits.axes_per_s[i]);
   }
   if (status.ok()) status = ValidateLimit("latest", space.latest_s());
-  return status.ok() ? ValidateBounds(*space.space()) : status;
+  if (status.ok() && space.latest_s() > kLongest_s) {
+    status = absl::InvalidArgumentError(
+        absl::StrCat("latest: is ", space.latest_s(), " s, above the limit of ", kLongest_s, " s"));
+  }
+  return status.ok() ? ValidatePart(*space.space(), limits) : status;
 }
 
 }  // namespace clearway

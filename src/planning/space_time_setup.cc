@@ -13,6 +13,7 @@ absl::StatusOr<og::SimpleSetupPtr> MakeSpaceTimeSetup(
     const std::shared_ptr<SpaceTimeStateSpace>& space, std::shared_ptr<const StateChecker> checker,
     StateMapping mapping, PlanningOptions options, const ob::State* start,
     const ob::State* goal_part, const GoalOptions& goal_options) {
+  if (space == nullptr) return absl::InvalidArgumentError("space: is null");
   // OMPL throws at limits that are none.
   if (auto status = Validate(*space); !status.ok()) return status;
   const auto si =

@@ -1,6 +1,8 @@
 #include "planning/timed_checks.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "clearway/planning/space_information.h"
 
@@ -9,8 +11,11 @@ namespace {
 
 namespace ob = ompl::base;
 
-// From when on, and how finely, it is looked for when something that passes is gone again.
+// How often at first, and how finely at last, it is looked whether something that passes is gone.
 constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
+// Later it is looked again after this part of what it has been there for. At places more often than
+// on ways: of a place the answer is kept, of ways others are asked about, at other times.
+constexpr double kOfWhatPassedAtPlaces = 1.0 / 64, kOfWhatPassedOnWays = 1.0 / 8;
 // Without proofs: how finely the end of a wait is looked for.
 constexpr double kWaitWithin_s = 0.02;
 
@@ -62,7 +67,7 @@ double TimedChecks::WaitByHalves(double from_s, double until_s) {
 double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
   if (query_ == nullptr) return at_s;
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s);
+  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s, kOfWhatPassedAtPlaces);
 }
 
 WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part, double begin_s,
@@ -86,20 +91,30 @@ WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part,
   const double after_s = ToSeconds(witness->until - *begin);
   const double share = end_s > begin_s ? after_s / (end_s - begin_s) : 0;
   space_->interpolate(first_, second_, std::clamp(share, 0.0, 1.0), first_);
-  return {false, false, FreeAgain(begin_s + after_s) - after_s};
+  return {false, false, FreeAgain(begin_s + after_s, kOfWhatPassedOnWays) - after_s};
+}
+
+bool TimedChecks::IsEverFree(const ob::State* part) {
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
+  return IsFreeAt(0) || !std::isinf(FreeAgain(0, kOfWhatPassedAtPlaces));
 }
 
 bool TimedChecks::IsFreeAt(double seconds) {
+  if (query_ == nullptr) {
+    SpaceTimeStateSpace::SetSeconds(first_, seconds);
+    return si_->isValid(first_);
+  }
   return query_->CheckPlace(first_, {seconds})[0].status == SpaceStatus::kFree;
 }
 
-// Something is in the way at that place and time: when is it gone? Looked for ever farther ahead.
-// At the space's latest, if it is not seen to go before.
-double TimedChecks::FreeAgain(double blocked_s) {
+// Something is in the way at that place and time: when is it gone? What is free for less than the
+// time between two looks may be missed.
+double TimedChecks::FreeAgain(double blocked_s, double of_what_passed) {
   double there_s = blocked_s, gone_s = blocked_s;
-  for (double ahead_s = kLookAgain_s; gone_s == blocked_s; ahead_s *= 2) {
-    const double look_s = blocked_s + ahead_s;
-    if (look_s >= latest_s_) return latest_s_;
+  while (gone_s == blocked_s) {
+    if (there_s >= latest_s_) return std::numeric_limits<double>::infinity();
+    const double wait_s = std::max(kLookAgain_s, of_what_passed * (there_s - blocked_s));
+    const double look_s = std::min(there_s + wait_s, latest_s_);
     (IsFreeAt(look_s) ? gone_s : there_s) = look_s;
   }
   while (gone_s - there_s > kGoneWithin_s) {

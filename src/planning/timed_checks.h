@@ -29,8 +29,10 @@ class TimedChecks {
   // it cannot even be there.
   double FreeUntil(const ompl::base::State* part, double from_s, double until_s);
   // Not before then it is worth trying to be at the place: at `at_s`, if nothing is known to be in
-  // the way there.
+  // the way there; infinity, if something is seen to be in the way from then on.
   double FreeFrom(const ompl::base::State* part, double at_s);
+  // Whether it is seen to be free at some time.
+  bool IsEverFree(const ompl::base::State* part);
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
                 double begin_s, double end_s);
   std::size_t ways_asked() const { return ways_asked_; }
@@ -38,8 +40,8 @@ class TimedChecks {
  private:
   bool IsFree(double begin_s, double end_s);  // from first_ to second_
   double WaitByHalves(double from_s, double until_s);
-  bool IsFreeAt(double seconds);       // what is at first_
-  double FreeAgain(double blocked_s);  // the same
+  bool IsFreeAt(double seconds);                              // what is at first_
+  double FreeAgain(double blocked_s, double of_what_passed);  // the same
 
   ompl::base::SpaceInformationPtr si_;
   const SpaceTimeStateSpace* space_;

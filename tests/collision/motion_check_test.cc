@@ -178,6 +178,41 @@ TEST_F(MotionCheckAtAWall, DeviationsAndPaddingKeepAway) {
   EXPECT_EQ(Ask()->answers[0].status, SpaceStatus::kOccupied);
 }
 
+// Times are whole nanoseconds: the middle of an odd number of them is nearer to one end.
+TEST(MotionCheckInNanoseconds, ATurnThatEndsInContactIsNotFree) {
+  const auto yaw = [](double rad) {
+    return Pose{Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitZ())), {0, 0, 0}};
+  };
+  for (const double turn_rad : {0.3, 0.6, 1.0}) {
+    TestWorld world;
+    world.Given(1, Box{{0.1, 0.1, 0.1}},
+                Pose::Translation(0.95 * std::cos(turn_rad), 0.95 * std::sin(turn_rad), 0));
+    const SceneChecker checker(world.Scene(), Robot::SingleShape("bar", Box{{2, 0.1, 0.1}}));
+    for (const int lasts_ns : {1, 2, 3, 5, 9, 13, 25, 101, 501}) {
+      MotionOptions options;
+      options.check.unknown = UnknownPolicy::kFree;
+      const auto dut = checker.CheckMotions(
+          {{2}, {kTestStart, kTestStart + Duration(lasts_ns)}, {yaw(0), yaw(turn_rad)}, {}},
+          options);
+      ASSERT_TRUE(dut.ok()) << dut.status();
+      EXPECT_NE(dut->answers[0].status, SpaceStatus::kFree) << turn_rad << " " << lasts_ns;
+    }
+  }
+}
+
+// A padding of hundreds of metres has millions of blocks to look at.
+TEST_F(MotionCheckAtAWall, MayBeCancelledHoweverMuchThereIsToLookAt) {
+  options_.check.unknown = UnknownPolicy::kBlocked;
+  options_.check.padding_m = 1000;
+  const auto begin = std::chrono::steady_clock::now();
+  int asked = 0;
+  const auto dut = SceneChecker(scene_, Robot::SingleShape("ball", Sphere{0.5}))
+                       .CheckMotions(motions_, options_, [&] { return ++asked > 3; });
+  const bool cancelled = absl::IsCancelled(dut.status());
+  EXPECT_TRUE(cancelled || dut.ok()) << dut.status();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));  // or for hours
+}
+
 // Differences overflow, and what is no number must not pass for a gap.
 TEST_F(MotionCheckAtAWall, FarOffIsNotFree) {
   for (const double far_m : {1e6, 1e154, 1e308}) {

@@ -43,6 +43,7 @@ inline std::vector<Time> TimesWhereItIsTight(const SceneChecker& checker, const 
       times.push_back(std::clamp(t, from, until));
     }
   }
+  times.back() = until;
   return times;
 }
 
@@ -60,9 +61,10 @@ inline void TryProofs(const SceneChecker& checker, const Asked& asked, const Mot
     counts.unresolved += answer.status == SpaceStatus::kUnresolved;
     if (answer.free_until > from) {
       const int looks = counts.motions % every == 0 ? 50 * count : count;
-      const std::vector<Time> times =
-          TimesWhereItIsTight(checker, asked, first, knots, options.check, from,
-                              answer.free_until - Duration(1), looks);
+      const std::vector<Time> times = TimesWhereItIsTight(
+          checker, asked, first, knots, options.check, from,
+          answer.status == SpaceStatus::kFree ? answer.free_until : answer.free_until - Duration(1),
+          looks);
       const auto truth = checker.Check(StatesAt(asked, first, knots, times), options.check);
       counts.states += static_cast<long>(times.size());
       counts.free_in_contact += std::ranges::any_of(

@@ -110,6 +110,10 @@ TEST(SafeIntervalPlanner, EveryReportedArrivalIsEarlierThanTheOneBefore) {
   dut.getPlannerData(data);
   EXPECT_EQ(data.numStartVertices(), 1u);
   EXPECT_EQ(data.numEdges() + 1, data.numVertices());
+  ob::PlannerData again(crossing.si);  // does not take away the states of the first
+  dut.getPlannerData(again);
+  EXPECT_TRUE(
+      crossing.si->equalStates(data.getVertex(0).getState(), again.getVertex(0).getState()));
 }
 
 TEST(SafeIntervalPlanner, AWallOfVehiclesHasNoPlan) {

@@ -52,6 +52,14 @@ std::string Refusal(const std::function<void(Problem&)>& change) {
   return std::string(setup.status().message());
 }
 
+TEST(SpaceTimeSetup, RefusesLimitsOfOtherAxesAndLatestTimesWithoutEnd) {
+  for (const std::vector<double>& bad : {std::vector<double>{1}, {1, 1, 1}}) {
+    EXPECT_THAT(Refusal([=](Problem& p) { p.limits.axes_per_s = bad; }),
+                HasSubstr("limits.axes_per_s: has"));
+  }
+  EXPECT_THAT(Refusal([](Problem& p) { p.latest = Duration::max(); }), HasSubstr("latest"));
+}
+
 TEST(SpaceTimeSetup, RefusesALatestTimeThatIsNotAboveZero) {
   for (const int bad_s : {0, -1}) {
     EXPECT_THAT(Refusal([=](Problem& p) { p.latest = std::chrono::seconds(bad_s); }),

@@ -25,8 +25,9 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 // Finds the path that arrives first, in any SpaceTimeStateSpace, whose times the search reasons
 // about instead of sampling them: places are sampled alone. At each place the robot may wait as
 // long as that is free, its safe interval; from it every neighbouring place is left for as soon as
-// the way there, at full speed, is free. (Phillips and Likhachev, "SIPP: Safe Interval Path
-// Planning for Dynamic Environments", 2011; on random places as Karaman and Frazzoli's PRM*,
+// the way there, at full speed, is seen to be free (what is in the way is looked at every 0.3 s,
+// later after ever more: short gaps may be missed). (Phillips and Likhachev, "SIPP: Safe Interval
+// Path Planning for Dynamic Environments", 2011; on random places as Karaman and Frazzoli's PRM*,
 // "Sampling-based Algorithms for Optimal Motion Planning", 2011, in batches and with the most
 // promising edge first as Gammell et al.'s BIT*, 2015.)
 //
@@ -58,7 +59,8 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
   void setup() override;
-  // The stays of the last search, at the times of arrival, and the ways between them.
+  // The stays of the last search, at the times of arrival, and the ways between them. Its states
+  // are the planner's, until clear().
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:

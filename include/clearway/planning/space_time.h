@@ -103,7 +103,8 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   OwnedState focus_goal_part_;
 };
 
-// INVALID_ARGUMENT naming what planners cannot work with: limits or a latest time that are not
+// INVALID_ARGUMENT naming what planners cannot work with: another number of axes' limits than the
+// space has axes, a latest time above 3e9 s, limits or a latest time that are not
 // above 0, bounds of R^n that are not finite, not ascending or more than 1e9 apart.
 absl::Status Validate(const SpaceTimeStateSpace& space);
 
