@@ -13,6 +13,8 @@ namespace clearway {
 
 struct ProofCounts {
   int motions = 0, free = 0, unresolved = 0;
+  int looked_at = 0;        // those of which a part was called free
+  int looked_closely = 0;   // of them, at 50 times as many times
   long states = 0;          // looked at in what was called free
   int free_in_contact = 0;  // motions called free, up to some time, that are not
   int witnesses_free = 0;   // of those called in contact
@@ -47,8 +49,8 @@ inline std::vector<Time> TimesWhereItIsTight(const SceneChecker& checker, const 
   return times;
 }
 
-// Every motion up to where it is proved free, at `count` times, every `every`th one at 50 times as
-// many, and every witness.
+// Every motion up to where it is proved free, at `count` times, every `every`th one of them at 50
+// times as many, and every witness. Of motions in contact from the start nothing is called free.
 inline void TryProofs(const SceneChecker& checker, const Asked& asked, const MotionOptions& options,
                       int count, int every, ProofCounts& counts) {
   const auto reply = checker.CheckMotions(asked.motions, options);
@@ -60,7 +62,9 @@ inline void TryProofs(const SceneChecker& checker, const Asked& asked, const Mot
     counts.free += answer.status == SpaceStatus::kFree;
     counts.unresolved += answer.status == SpaceStatus::kUnresolved;
     if (answer.free_until > from) {
-      const int looks = counts.motions % every == 0 ? 50 * count : count;
+      const bool closely = counts.looked_at++ % every == 0;
+      counts.looked_closely += closely;
+      const int looks = closely ? 50 * count : count;
       const std::vector<Time> times = TimesWhereItIsTight(
           checker, asked, first, knots, options.check, from,
           answer.status == SpaceStatus::kFree ? answer.free_until : answer.free_until - Duration(1),
