@@ -38,8 +38,9 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone&
       },
       [&] { return lost || core.draining || gone(); });
   if (!outcome.ok()) return outcome.status();
-  if (core.draining)
+  if (core.draining && outcome->status == PlanStatus::kNotFound) {
     return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
+  }
   v1::PlanResponse last;
   Write(*outcome, &last);
   send(last);

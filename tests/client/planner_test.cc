@@ -166,6 +166,21 @@ TEST_F(PlannerTest, AWatchTellsOfPlansThatBreakAndMend) {
   EXPECT_GT(news[2].reply.version, news[1].reply.version);
 }
 
+// That nothing was found until then says nothing.
+TEST_F(PlannerTest, AServerThatDrainsDoesNotSayThatThereIsNoPlan) {
+  PlanTask task = AcrossThePlace();
+  GivenObject wall = Post(2, 0, 0);
+  wall.shape = Box{{0.2, 12, 2}};
+  ASSERT_TRUE(SceneClient(connection_).AddObjects(std::vector{wall}).ok());
+  std::thread drain([&] {
+    while (server_.core().plans == 0) std::this_thread::sleep_for(milliseconds(1));
+    server_.core().draining = true;
+  });
+  const auto outcome = planner_->Plan(task, seconds(10), [](const Plan&) { return true; });
+  drain.join();
+  EXPECT_TRUE(absl::IsUnavailable(outcome.status())) << outcome.status();
+}
+
 TEST_F(PlannerTest, NoMorePlansAtOnceThanTheLimit) {
   ServerConfig config = testing_support::SmallConfig();
   config.limits.max_plans = 1;
