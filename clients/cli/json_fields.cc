@@ -81,6 +81,15 @@ absl::StatusOr<double> JsonFields::NumberOr(const char* field, double otherwise)
   return Has(field) ? Number(field) : otherwise;
 }
 
+absl::StatusOr<Duration> JsonFields::Seconds(const char* field) const {
+  constexpr double kLongest_s = 1e6;
+  const auto seconds = Number(field);
+  if (!seconds.ok()) return seconds.status();
+  if (std::abs(*seconds) <= kLongest_s) return FromSeconds(*seconds);
+  return Error(field,
+               absl::StrCat("is ", *seconds, " s, must be at most ", kLongest_s, " s either way"));
+}
+
 absl::StatusOr<bool> JsonFields::FlagOr(const char* field, bool otherwise) const {
   if (!Has(field)) return otherwise;
   const Json& value = value_->at(field);

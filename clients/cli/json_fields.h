@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "clearway/base/time.h"
 #include "clearway/geometry/pose.h"
 #include "cli/json.h"
 
@@ -27,6 +28,8 @@ class JsonFields {
   absl::StatusOr<double> Positive(const char* field) const;
   absl::StatusOr<double> Number(const char* field) const;
   absl::StatusOr<double> NumberOr(const char* field, double otherwise) const;
+  // Of at most 1e6 s either way.
+  absl::StatusOr<Duration> Seconds(const char* field) const;
   absl::StatusOr<bool> FlagOr(const char* field, bool otherwise) const;
   // A list of any length.
   absl::StatusOr<std::vector<double>> NumberList(const char* field) const;

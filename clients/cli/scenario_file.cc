@@ -62,22 +62,23 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
     if (corners->size() != 2) return fields.Error("area_m", "expected two corners");
     task.area_W = {(*corners)[0], (*corners)[1]};
   }
-  double start_s = 0, time_limit_s = 0;
   for (const auto& [name, number] :
        {std::pair{"max_speed_mps", &task.max_speed_mps},
         {"max_turn_radps", &task.max_turn_radps},
-        {"start_s", &start_s},
-        {"time_limit_s", &time_limit_s},
         {"contact_resolution_m", &task.options.contact_resolution_m}}) {
     const auto read = fields.NumberOr(name, *number);
     if (!read.ok()) return read.status();
     *number = *read;
   }
-  constexpr double kLongest_s = 1e6;
-  if (std::abs(start_s) > kLongest_s) return fields.Error("start_s", "is too long");
-  if (time_limit_s > kLongest_s) return fields.Error("time_limit_s", "is too long");
-  task.start_time = Time() + FromSeconds(start_s);
-  task.time_limit = FromSeconds(time_limit_s);
+  Duration start{};
+  for (const auto& [name, duration] :
+       {std::pair{"start_s", &start}, {"time_limit_s", &task.time_limit}}) {
+    if (!fields.Has(name)) continue;
+    const auto read = fields.Seconds(name);
+    if (!read.ok()) return read.status();
+    *duration = *read;
+  }
+  task.start_time = Time() + start;
   for (const auto& [name, values] : {std::pair{"start", &task.start}, {"goal", &task.goal}}) {
     auto read = fields.NumberList(name);
     if (!read.ok()) return read.status();

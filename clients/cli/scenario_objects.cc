@@ -1,15 +1,11 @@
 #include "cli/scenario_objects.h"
 
-#include <cmath>
-
 #include "absl/strings/str_cat.h"
 #include "cli/json_fields.h"
 #include "cli/robot_shape.h"
 
 namespace clearway::cli {
 namespace {
-
-constexpr double kLongest_s = 1e6;
 
 // The object's frame is its shape's: what `pose` the shape has in it is added to its own.
 absl::Status ParseShape(const JsonFields& fields, const Json& value,
@@ -27,12 +23,11 @@ absl::Status ParseShape(const JsonFields& fields, const Json& value,
 absl::StatusOr<StampedPose> ParseStampedPose(const Json& value, const std::string& path) {
   const auto fields = JsonFields::Of(value, path, {"t_s", "pose"});
   if (!fields.ok()) return fields.status();
-  const auto t_s = fields->Number("t_s");
-  if (!t_s.ok()) return t_s.status();
-  if (std::abs(*t_s) > kLongest_s) return fields->Error("t_s", "is too long");
+  const auto t = fields->Seconds("t_s");
+  if (!t.ok()) return t.status();
   const auto pose = fields->PoseOrIdentity("pose");
   if (!pose.ok()) return pose.status();
-  return StampedPose{Time() + FromSeconds(*t_s), *pose};
+  return StampedPose{Time() + *t, *pose};
 }
 
 absl::Status ParseMotion(const JsonFields& fields, const Json& value, GivenObject& object) {

@@ -103,7 +103,8 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("cylinder:0.3,1", "cylinder:0.3", "cylinder:0.3");
   expect("\"id\": 3", "\"id\": 3.5", "objects[0].id: expected a whole number");
   expect("\"t_s\": 10, ", "", "objects[0].future[0].t_s: missing");
-  expect("\"t_s\": 10, ", "\"t_s\": 1e15, ", "objects[0].future[0].t_s: is too long");
+  expect("\"t_s\": 10, ", "\"t_s\": 1e15, ",
+         "objects[0].future[0].t_s: is 1e+15 s, must be at most 1e+06 s either way");
   expect("\"radius_m\": 0.5", "\"radius_m\": -1", "objects[1].shape.radius_m");
 }
 
