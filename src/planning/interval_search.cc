@@ -60,12 +60,13 @@ void IntervalSearch::Propose(int stay, const Roadmap::Neighbor& to, double depar
 
 // A greedy search comes to a safe interval once, however late.
 std::optional<double> IntervalSearch::HeldUntil(std::size_t place, double arrival_s) const {
+  if (stays_at_[place].empty()) return std::nullopt;
   const bool greedy = question_->weight > 1;
+  const double waits_until_s =
+      greedy ? KnownUntil(place, arrival_s).value_or(arrival_s) : arrival_s;
   for (const int i : stays_at_[place]) {
     const Stay& stay = stays_[i];
-    const bool before = arrival_s < stay.arrival_s;
-    if (before && !(greedy && KnownUntil(place, arrival_s) >= stay.arrival_s)) continue;
-    if (arrival_s <= stay.leave_by_s) return stay.leave_by_s;
+    if (stay.arrival_s <= waits_until_s && arrival_s <= stay.leave_by_s) return stay.leave_by_s;
   }
   return std::nullopt;
 }
