@@ -1,0 +1,83 @@
+// Places and ways that are free for a while only, and short ways in large places: plans are
+// expected to arrive when by hand they can.
+#include <gtest/gtest.h>
+
+#include "planning/solved_tasks.h"
+
+namespace clearway {
+namespace {
+
+using std::chrono::seconds;
+
+void ExpectArrivesBy(double arrival_s, const ScenePtr& scene, const PlanTask& task) {
+  const Solved solved = SolveFor(arrival_s, scene, Disc(), task);
+  ExpectGood(solved, scene, Disc(), task);
+  ASSERT_FALSE(solved.plans.empty());
+  EXPECT_LE(ToSeconds(solved.plans.back().times.back() - task.start_time), arrival_s);
+}
+
+// From one time to another.
+struct Window {
+  double from_s, until_s;
+};
+
+// A shape that is where the pose says, but out of the way during the window.
+void GivenBut(Window window, TestWorld& world, ObjectId id, const Shape& shape, const Pose& there) {
+  const Pose away = Pose::Translation(0, 0, 10) * there;
+  world.Given(id, shape, there, {},
+              {{TestTime(window.from_s), there},
+               {TestTime(window.from_s + 0.1), away},
+               {TestTime(window.until_s), away},
+               {TestTime(window.until_s + 0.1), there}});
+}
+
+// Until it is away the disc is kept 0.55 m before the goal.
+TEST(SolveWindows, TheGoalIsFreeOnce) {
+  for (const Window window : {Window{15, 19}, {20, 28}, {20, 28.5}, {30, 47}, {40, 46}}) {
+    TestWorld world;
+    GivenBut(window, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+    PlanTask task = AcrossThePlace();
+    // The time limit after the window and in it: then it is free to the end.
+    for (const double limit_s : {60.0, window.until_s - 0.5}) {
+      task.time_limit = FromSeconds(limit_s);
+      ExpectArrivesBy(window.from_s + 0.7, world.Scene(), task);
+    }
+  }
+}
+
+TEST(SolveWindows, ADoorOpensOnce) {
+  for (const Window window : {Window{12, 14}, {20, 23}, {30, 34}, {45, 49}}) {
+    TestWorld world;
+    world.Given(1, Box{{0.2, 4.6, 2}}, Pose::Translation(0, -2.7, 0));
+    world.Given(2, Box{{0.2, 4.6, 2}}, Pose::Translation(0, 2.7, 0));
+    GivenBut(window, world, 3, Box{{0.1, 1.2, 2}}, {});
+    PlanTask task = AcrossThePlace();
+    task.time_limit = seconds(60);
+    ExpectArrivesBy(window.until_s + 4, world.Scene(), task);
+  }
+}
+
+// Of a large place hardly anything can be visited on a short way.
+TEST(SolveWindows, AShortWayInALargePlace) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4, 2}}, Pose::Translation(0, 0, 0));
+  PlanTask task = AcrossThePlace();
+  task.area_W = {{-2000, -2000, 0}, {2000, 2000, 0}};
+  task.start = {-1, 0};
+  task.goal = {1, 0};
+  task.time_limit = seconds(10);
+  ExpectArrivesBy(6.5, world.Scene(), task);
+}
+
+TEST(SolveWindows, TheTimeIsTooShortForAWayRound) {
+  TestWorld world;
+  world.Given(1, Box{{0.2, 4, 2}}, Pose::Translation(0, 0, 0));
+  PlanTask task = AcrossThePlace();
+  task.time_limit = seconds(8);
+  const Solved solved = SolveIn(world.Scene(), Disc(), task);
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kNoTimeToSpare);
+}
+
+}  // namespace
+}  // namespace clearway
