@@ -103,9 +103,9 @@ class SpaceTimeStateSpace : public ompl::base::CompoundStateSpace {
   OwnedState focus_goal_part_;
 };
 
-// INVALID_ARGUMENT naming what planners cannot work with: another number of axes' limits than the
-// space has axes, a latest time above 3e9 s, limits or a latest time that are not
-// above 0, bounds of R^n that are not finite, not ascending or more than 1e9 apart.
+// INVALID_ARGUMENT naming what planners cannot work with: limits that are not above 0, of more or
+// fewer axes than R^n has, a latest time that is not above 0 or above 3e9 s, bounds of R^n that are
+// not finite, not ascending or more than 1e9 apart.
 absl::Status Validate(const SpaceTimeStateSpace& space);
 
 }  // namespace clearway
