@@ -32,12 +32,32 @@ void AnytimeSearch::AddStart(const ob::State* part, double seconds) {
   starts_.emplace_back(roadmap_.Add(part), seconds);
 }
 
-bool AnytimeSearch::AddGoal(const ob::State* part) {
+std::size_t AnytimeSearch::GoalPlace(const ob::State* part) {
   for (const std::size_t known : goals_) {
-    if (space_.space()->equalStates(part, roadmap_.Place(known))) return false;
+    if (space_.space()->equalStates(part, roadmap_.Place(known))) return known;
   }
   goals_.push_back(roadmap_.Add(part));
+  return goals_.back();
+}
+
+void AnytimeSearch::AddGoal(const ob::State* part) { GoalPlace(part); }
+
+bool AnytimeSearch::AddGoalAt(const ob::State* part, double seconds) {
+  const std::pair goal{GoalPlace(part), seconds};
+  if (std::ranges::find(timed_goals_, goal) != timed_goals_.end()) return false;
+  timed_goals_.push_back(goal);
+  std::ranges::sort(timed_goals_);
   return true;
+}
+
+std::optional<double> AnytimeSearch::Arrives(const ob::Goal& goal, std::size_t place, double from_s,
+                                             double until_s) const {
+  if (goal.isSatisfied(At(place, from_s))) return from_s;
+  for (const auto& [timed, seconds] : timed_goals_) {
+    if (timed != place || seconds < from_s || seconds > until_s) continue;
+    if (goal.isSatisfied(At(place, seconds))) return seconds;
+  }
+  return std::nullopt;
 }
 
 ob::State* AnytimeSearch::At(std::size_t place, double seconds) const {
@@ -105,14 +125,15 @@ bool AnytimeSearch::Search(double weight, const ob::Goal& goal,
   std::vector<Stay> found = search_.Find(
       {.starts = starts_,
        .goals = goals_,
-       .arrived = [&](std::size_t place,
-                      double arrival_s) { return goal.isSatisfied(At(place, arrival_s)); },
+       .arrives = [&](std::size_t place, double from_s,
+                      double until_s) { return Arrives(goal, place, from_s, until_s); },
        .weight = weight,
        .earlier_than_s = Arrival() - kEarlier_s,
        .most_ways = kWaysEach * roadmap_.size(),
        .cancelled = [&] { return until(); }});
   if (found.empty()) return false;
   path_ = std::move(found);
+  found_in_ = search_.stays();
   return true;
 }
 

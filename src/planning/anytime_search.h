@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,9 +29,12 @@ class AnytimeSearch {
 
   void AddStart(const ompl::base::State* part, double seconds);
   bool has_start() const { return !starts_.empty(); }
-  // False if it is one already.
-  bool AddGoal(const ompl::base::State* part);
+  // To be at the place when the goal says so.
+  void AddGoal(const ompl::base::State* part);
+  // The same, and it may do so at that time only. False if that is known.
+  bool AddGoalAt(const ompl::base::State* part, double seconds);
   std::size_t goals() const { return goals_.size(); }
+  std::size_t timed_goals() const { return timed_goals_.size(); }
 
   // Adds places that can be visited on the way to an arrival earlier than the best one. False
   // if there are none.
@@ -50,8 +54,9 @@ class AnytimeSearch {
 
   std::size_t places() const { return roadmap_.size(); }
   std::size_t ways_asked() const { return checks_.ways_asked(); }
-  // Of the last search, and the state of its begin; valid until the next one is asked for.
-  const std::vector<Stay>& stays() const { return search_.stays(); }
+  // Of the search that found the best path; without a path, of the last one.
+  const std::vector<Stay>& stays() const { return found() ? found_in_ : search_.stays(); }
+  // Valid until the next one is asked for.
   const ompl::base::State* BeginOf(const Stay& stay) const {
     return At(stay.place, stay.arrival_s);
   }
@@ -61,6 +66,9 @@ class AnytimeSearch {
   void SamplePlace(ompl::base::State* part);
   void SampleNearPlaces(ompl::base::State* part);
   double ArrivalBy(const ompl::base::State* part) const;
+  std::size_t GoalPlace(const ompl::base::State* part);
+  std::optional<double> Arrives(const ompl::base::Goal& goal, std::size_t place, double from_s,
+                                double until_s) const;
 
   ompl::base::SpaceInformationPtr si_;
   const SpaceTimeStateSpace& space_;
@@ -72,7 +80,9 @@ class AnytimeSearch {
   ompl::RNG random_;
   std::vector<std::pair<std::size_t, double>> starts_;
   std::vector<std::size_t> goals_;
-  std::vector<Stay> path_;  // the best so far
+  std::vector<std::pair<std::size_t, double>> timed_goals_;  // of goals_, with times
+  std::vector<Stay> path_;                                   // the best so far
+  std::vector<Stay> found_in_;                               // all of the search that found it
 };
 
 }  // namespace clearway

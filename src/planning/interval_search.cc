@@ -100,9 +100,12 @@ bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, do
   const int stay = static_cast<int>(stays_.size());
   stays_.push_back({place, arrival_s, leave_by_s, before, departed_s});
   stays_at_[place].push_back(stay);
-  if (std::ranges::find(question_->goals, place) != question_->goals.end() &&
-      question_->arrived(place, arrival_s)) {
-    return true;
+  if (std::ranges::find(question_->goals, place) != question_->goals.end()) {
+    const auto there_s = question_->arrives(place, arrival_s, leave_by_s);
+    if (there_s && *there_s < question_->earlier_than_s) {
+      if (*there_s > arrival_s) stays_.push_back({place, *there_s, leave_by_s, stay, arrival_s});
+      return true;
+    }
   }
   const auto& near = roadmap_.Near(place);
   for (const Roadmap::Neighbor& to : near) Propose(stay, to, arrival_s);

@@ -33,8 +33,8 @@ class IntervalSearch {
   struct Question {
     std::vector<std::pair<std::size_t, double>> starts;  // places and times
     std::vector<std::size_t> goals;
-    // Whether being at that goal then is what is wanted.
-    std::function<bool(std::size_t goal, double arrival_s)> arrived;
+    // When, of a stay at that goal from one time until another, being there is what is wanted.
+    std::function<std::optional<double>(std::size_t goal, double from_s, double until_s)> arrives;
     // Of what may be left of the way: above 1, greedy: sooner found and later there.
     double weight = 1;
     double earlier_than_s = std::numeric_limits<double>::infinity();
@@ -57,8 +57,9 @@ class IntervalSearch {
   };
 
   void Propose(int stay, const Roadmap::Neighbor& to, double depart_s);
+  // Both: whether that reached a goal.
   bool AddStay(std::size_t place, double arrival_s, int before, double departed_s);
-  // Looks at the most promising candidate. Whether that reached a goal.
+  // Looks at the most promising candidate.
   bool Follow(const Candidate& candidate);
   // Until when the place can be held by a stay that makes this arrival needless, if there is one.
   std::optional<double> HeldUntil(std::size_t place, double arrival_s) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "clearway/planning/space_time_problem.h"
@@ -32,6 +33,8 @@ struct SafeIntervalPlanner::Impl {
   ob::SpaceInformationPtr si;
   AnytimeSearch search;
   std::vector<ob::State*> shown;  // owned; by all calls of getPlannerData
+  // Of them, those of the stays as they are now, if they were shown.
+  std::optional<std::size_t> shown_from;
 };
 
 EarliestArrivalObjective::EarliestArrivalObjective(const ob::SpaceInformationPtr& si)
@@ -94,10 +97,13 @@ void SafeIntervalPlanner::AddGoals(const ob::PlannerTerminationCondition& until)
     impl_->search.AddGoal(goal->goal_part());
     return;
   }
-  while (impl_->search.goals() < kMostGoals) {
+  while (impl_->search.timed_goals() < kMostGoals) {
     const ob::State* goal = impl_->search.goals() == 0 ? pis_.nextGoal(until) : pis_.nextGoal();
     if (goal == nullptr) return;
-    if (!impl_->search.AddGoal(SpaceTimeStateSpace::SpacePart(goal))) return;
+    if (!impl_->search.AddGoalAt(SpaceTimeStateSpace::SpacePart(goal),
+                                 SpaceTimeStateSpace::SecondsOf(goal))) {
+      return;
+    }
   }
 }
 
@@ -116,6 +122,7 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   // After the first path the same places are searched for the best one; after that they yield no
   // more.
   bool more = true;
+  impl_->shown_from.reset();
   while (more && !until()) {
     const bool first = !impl_->search.found();
     const bool earlier = impl_->search.Search(first ? kGreedy : 1, *pdef_->getGoal(), until);
@@ -153,17 +160,22 @@ void SafeIntervalPlanner::getPlannerData(ob::PlannerData& data) const {
   ob::Planner::getPlannerData(data);
   if (!impl_) return;
   const std::vector<Stay>& stays = impl_->search.stays();
-  const std::size_t before = impl_->shown.size();  // of data that may still be in use
-  const auto vertex = [&](int stay) {
-    return ob::PlannerDataVertex(impl_->shown[before + static_cast<std::size_t>(stay)], stay);
+  if (!impl_->shown_from) {
+    impl_->shown_from = impl_->shown.size();  // earlier data may still be in use
+    for (const Stay& stay : stays)
+      impl_->shown.push_back(si_->cloneState(impl_->search.BeginOf(stay)));
+  }
+  const auto state = [&](int stay) {
+    return impl_->shown[*impl_->shown_from + static_cast<std::size_t>(stay)];
   };
+  const auto vertex = [&](int stay) { return ob::PlannerDataVertex(state(stay), stay); };
   for (int i = 0; i < static_cast<int>(stays.size()); ++i) {
-    impl_->shown.push_back(si_->cloneState(impl_->search.BeginOf(stays[i])));
     if (stays[i].before < 0) {
       data.addStartVertex(vertex(i));
     } else {
       data.addEdge(vertex(stays[i].before), vertex(i));
     }
+    if (pdef_->getGoal()->isSatisfied(state(i))) data.markGoalState(state(i));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <ompl/base/PlannerData.h>
+#include <ompl/base/goals/GoalStates.h>
 
 #include "clearway/planning/path_check.h"
 #include "clearway/planning/space_time_setup.h"
@@ -110,10 +111,55 @@ TEST(SafeIntervalPlanner, EveryReportedArrivalIsEarlierThanTheOneBefore) {
   dut.getPlannerData(data);
   EXPECT_EQ(data.numStartVertices(), 1u);
   EXPECT_EQ(data.numEdges() + 1, data.numVertices());
+  const unsigned int vertices = data.numVertices();
+  dut.getPlannerData(data);
+  EXPECT_EQ(data.numVertices(), vertices);
   ob::PlannerData again(crossing.si);  // does not take away the states of the first
   dut.getPlannerData(again);
   EXPECT_TRUE(
       crossing.si->equalStates(data.getVertex(0).getState(), again.getVertex(0).getState()));
+}
+
+TEST(SafeIntervalPlanner, ItsDataTellTheGoal) {
+  Crossing crossing({});
+  SafeIntervalPlanner dut(crossing.si);
+  ASSERT_EQ(Solve(dut, crossing.problem, 1'000'000'000), ob::PlannerStatus::EXACT_SOLUTION);
+  ob::PlannerData data(crossing.si);
+  dut.getPlannerData(data);
+  EXPECT_GE(data.numGoalVertices(), 1u);
+  for (unsigned int i = 0; i < data.numGoalVertices(); ++i) {
+    EXPECT_TRUE(crossing.problem->getGoal()->isSatisfied(data.getGoalVertex(i).getState()));
+  }
+}
+
+// Of OMPL's own goals the times count.
+TEST(SafeIntervalPlanner, IsAtAGoalStateAtItsTime) {
+  for (const double at_s : {4.0, 8.3, 11.9}) {
+    Crossing crossing(TwoLanes());
+    SpaceTimeStateSpace::SetSeconds(crossing.goal.get(), at_s);
+    crossing.problem->clearGoal();
+    crossing.problem->setGoalState(crossing.goal);
+    SafeIntervalPlanner dut(crossing.si);
+    ASSERT_EQ(Solve(dut, crossing.problem, 3000),
+              at_s > 4 ? ob::PlannerStatus::EXACT_SOLUTION : ob::PlannerStatus::TIMEOUT);
+    if (at_s == 4) continue;  // another is in the way
+    EXPECT_EQ(ArrivalOf(crossing.Path()), at_s);
+    EXPECT_TRUE(CheckPath(crossing.Path(), *QueryOf(*crossing.si)).free);
+    ExpectFreeInTheWorld(crossing);
+  }
+}
+
+TEST(SafeIntervalPlanner, TakesTheGoalStateThatComesFirst) {
+  Crossing crossing({});
+  const auto goals = std::make_shared<ob::GoalStates>(crossing.si);
+  for (const double at_s : {9.0, 3.0, 7.0}) {  // 3 s are too few
+    SpaceTimeStateSpace::SetSeconds(crossing.goal.get(), at_s);
+    goals->addState(crossing.goal);
+  }
+  crossing.problem->setGoal(goals);
+  SafeIntervalPlanner dut(crossing.si);
+  ASSERT_EQ(Solve(dut, crossing.problem, 3000), ob::PlannerStatus::EXACT_SOLUTION);
+  EXPECT_EQ(ArrivalOf(crossing.Path()), 7);
 }
 
 TEST(SafeIntervalPlanner, AWallOfVehiclesHasNoPlan) {

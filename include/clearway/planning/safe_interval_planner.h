@@ -37,8 +37,9 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 //
 // Over the space information of MakeSpaceInformation motions are proved and waits are proved safe
 // intervals. Over any other the motion validator is asked; it must refuse motions backwards in
-// time. States are of that space: starts are taken as they are; of goal states the places are
-// taken, and a goal counts as reached when its isSatisfied says so at the time of arrival.
+// time. States are of that space: starts are taken as they are; a goal counts as
+// reached when its isSatisfied says so at the time of arrival at the place of one of its states or,
+// after a wait there, at the time of that state; of a GoalPoseBefore the times count for nothing.
 //
 // One thread. Progress properties "best cost REAL" (the arrival, seconds of the space), "places
 // INTEGER", "edges checked INTEGER". Continues where it stopped if solve is called again without
@@ -59,8 +60,8 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
   void setup() override;
-  // The stays of the last search, at the times of arrival, and the ways between them. Its states
-  // are the planner's, until clear().
+  // Of the search that found the path, or of the last one if none did: the stays, at the times of
+  // arrival, and the ways between them. The states are the planner's, until clear().
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
