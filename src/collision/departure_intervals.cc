@@ -24,13 +24,12 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
 
 // Of all departures and knots.
 absl::Status CheckTimes(const MotionBatch& edges, const TimeInterval& window) {
-  constexpr std::int64_t kMost_ns = std::int64_t{1} << 62;
   for (const Time knot : edges.times) {
     for (const Time departure : {window.from, window.until}) {
       const std::int64_t half = ToNanoseconds(knot) / 2 + ToNanoseconds(departure) / 2;
-      if (half < kMost_ns / 2 && half > -kMost_ns / 2) continue;
+      if (half < kFarthest_ns / 2 && half > -kFarthest_ns / 2) continue;
       return Invalid("window", absl::StrCat("has departures from which a knot of ",
-                                            ToNanoseconds(knot), " lies beyond ", kMost_ns));
+                                            ToNanoseconds(knot), " lies beyond ", kFarthest_ns));
     }
   }
   return absl::OkStatus();

@@ -144,10 +144,16 @@ absl::Status Validate(const PlanTask& task, const Robot& robot) {
   if (auto status = CheckArea(task); !status.ok()) return status;
   if (auto status = CheckConfiguration("start", task.start, task); !status.ok()) return status;
   if (auto status = CheckConfiguration("goal", task.goal, task); !status.ok()) return status;
-  if (auto status = ValidateTime("start_ns", task.start_time); !status.ok()) return status;
   if (task.time_limit <= Duration::zero() || task.time_limit > kLongest) {
     return Invalid("time_limit_s", absl::StrCat("is ", ToSeconds(task.time_limit),
                                                 "; it must be above 0, and at most 3600"));
+  }
+  if (auto status = ValidateTime("start_ns", task.start_time); !status.ok()) return status;
+  const Time latest_start = TimeFromNanoseconds(kFarthest_ns) - task.time_limit;
+  if (task.start_time > latest_start) {
+    return Invalid("start_ns", absl::StrCat("is ", ToNanoseconds(task.start_time),
+                                            "; with this time limit it must be at most ",
+                                            ToNanoseconds(latest_start)));
   }
   if (task.options.world_at) return Invalid("world_at_ns", "is not for plans");
   return Validate(task.options, robot);

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kMaxDistance_m = 1e5;
 constexpr double kMaxInflation_mps = 1e3;
-constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 62;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
@@ -75,9 +74,9 @@ absl::Status Validate(const StateBatch& states, const Robot& robot) {
 
 absl::Status ValidateTime(const std::string& field, Time time) {
   const std::int64_t time_ns = ToNanoseconds(time);
-  if (time_ns >= -kMaxTime_ns && time_ns <= kMaxTime_ns) return absl::OkStatus();
+  if (time_ns >= -kFarthest_ns && time_ns <= kFarthest_ns) return absl::OkStatus();
   return Invalid(field,
-                 absl::StrCat("is ", time_ns, "; it must lie within ", kMaxTime_ns, " of 0"));
+                 absl::StrCat("is ", time_ns, "; it must lie within ", kFarthest_ns, " of 0"));
 }
 
 absl::Status ValidateStates(const std::vector<Time>& times, const std::vector<Pose>& T_W_L,

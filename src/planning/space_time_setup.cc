@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/planning/safe_interval_planner.h"
 
 namespace clearway {
@@ -19,6 +20,13 @@ absl::StatusOr<og::SimpleSetupPtr> MakeSpaceTimeSetup(
   const auto si =
       MakeSpaceInformation(space, std::move(checker), std::move(mapping), std::move(options));
   if (!si.ok()) return si.status();
+  const auto begin = QueryOf(**si)->mapping().TimeOf(start);
+  if (!begin.ok()) return begin.status();
+  if (const Time stamp = QueryOf(**si)->checker().stamp(); *begin < stamp) {
+    return absl::InvalidArgumentError(absl::StrCat("start: is at ", ToNanoseconds(*begin),
+                                                   " ns, in the past of the scene, which is of ",
+                                                   ToNanoseconds(stamp)));
+  }
   const auto problem = MakeSpaceTimeProblem(*si, start, goal_part, goal_options);
   if (!problem.ok()) return problem.status();
   auto setup = std::make_shared<og::SimpleSetup>(*si);

@@ -14,10 +14,6 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
 }
 
-// Far enough from the ends of int64 that differences of stamps cannot overflow: 146 years about the
-// epoch of the sensors.
-constexpr std::int64_t kLargestStamp_ns = std::int64_t{1} << 62;
-
 absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   const std::size_t points = frame.points_S.size();
   if (points > limits.max_points) {
@@ -84,7 +80,7 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
 
 absl::Status ValidateStamp(const std::string& field, Time stamp) {
   const std::int64_t ns = ToNanoseconds(stamp);
-  if (ns >= -kLargestStamp_ns && ns <= kLargestStamp_ns) return absl::OkStatus();
+  if (ns >= -kFarthest_ns && ns <= kFarthest_ns) return absl::OkStatus();
   return Invalid(field, absl::StrCat("is ", ns, "; it must lie within 2^62 ns of zero"));
 }
 

@@ -14,9 +14,7 @@ namespace {
 // Any finite position may be asked about; where limits matter, whoever uses the pose has its own.
 constexpr double kAnyCoordinate_m = std::numeric_limits<double>::max();
 
-// Differences of stamps must not overflow: 146 years either way.
-constexpr std::int64_t kLimit_ns = std::int64_t{1} << 62;
-bool BeyondLimit(std::int64_t ns) { return ns > kLimit_ns || ns < -kLimit_ns; }
+bool BeyondLimit(std::int64_t ns) { return ns > kFarthest_ns || ns < -kFarthest_ns; }
 
 Eigen::Vector3d ToVector(const v1::Vector3& proto) { return {proto.x(), proto.y(), proto.z()}; }
 
@@ -90,7 +88,7 @@ double FieldReader::Positive(const std::string& field, double value) {
 Time FieldReader::Stamp(const std::string& field, bool present, std::int64_t ns) {
   Require(present, field, "is missing");
   if (BeyondLimit(ns)) {
-    Fail(field, absl::StrCat("is ", ns, "; the limit is ", kLimit_ns, " either way"));
+    Fail(field, absl::StrCat("is ", ns, "; the limit is ", kFarthest_ns, " either way"));
   }
   return TimeFromNanoseconds(ok() ? ns : 0);
 }

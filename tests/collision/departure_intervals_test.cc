@@ -153,7 +153,7 @@ TEST_F(DepartureIntervals, SaysWhatIsWrong) {
   EXPECT_TRUE(names(message(edges, window, Duration(9'000)), "window"));
   EXPECT_TRUE(names(message(edges, window, step, {{}, 0.01, Time()}), "world_at_ns"));
   EXPECT_TRUE(names(message(edges, window, step, {{}, 0}), "contact_resolution_m"));
-  const Time last = TimeFromNanoseconds(std::int64_t{1} << 62);
+  const Time last = TimeFromNanoseconds(kFarthest_ns);
   EXPECT_TRUE(
       names(message(edges, {Time(-last.time_since_epoch()), last}, step), "window.until_ns"));
   EXPECT_TRUE(names(message(edges, {last, last}, step), "window"));

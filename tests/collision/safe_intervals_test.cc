@@ -68,7 +68,7 @@ TEST(SafeIntervals, SaysWhatIsWrong) {
   EXPECT_NE(message({now, now - look}, look, 1).find("window.until"), std::string::npos);
   EXPECT_NE(message({now, now + look}, Duration(0), 1).find("look_every"), std::string::npos);
   EXPECT_NE(message({now, now + FromSeconds(1e6)}, look, 1).find("100000"), std::string::npos);
-  const Time last = TimeFromNanoseconds(std::int64_t{1} << 62);
+  const Time last = TimeFromNanoseconds(kFarthest_ns);
   EXPECT_NE(message({Time::min(), now}, look, 1).find("window.from_ns"), std::string::npos);
   EXPECT_NE(message({now, Time::max()}, look, 1).find("window.until_ns"), std::string::npos);
   EXPECT_NE(message({Time(-last.time_since_epoch()), last}, look, 1).find("window.until_ns"),

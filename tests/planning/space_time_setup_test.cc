@@ -26,6 +26,7 @@ struct Problem {
   Duration latest = std::chrono::seconds(60);
   std::vector<double> start{-4, 0, 0}, goal{4, 0, 0};
   GoalOptions options;
+  Time origin;
 
   absl::StatusOr<ompl::geometric::SimpleSetupPtr> Setup() const {
     auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
@@ -38,7 +39,7 @@ struct Problem {
     const_cast<ob::RealVectorBounds&>(plane->getBounds()) = bounds;  // OMPL's setter throws
     return MakeSpaceTimeSetup(
         space, std::make_shared<DiscChecker>(DeliveryRobot(), std::vector<MovingDisc>()),
-        StateMapping::R2(DeliveryRobot(), {}, TimeSince{Time()}), {}, from.get(),
+        StateMapping::R2(DeliveryRobot(), {}, TimeSince{origin}), {}, from.get(),
         SpaceTimeStateSpace::SpacePart(to.get()), options);
   }
 };
@@ -105,6 +106,11 @@ TEST(SpaceTimeSetup, RefusesTolerancesThatNothingMeets) {
 TEST(SpaceTimeSetup, RefusesArrivalsBeforeTheEarliest) {
   EXPECT_THAT(Refusal([](Problem& p) { p.latest = std::chrono::milliseconds(7999); }),
               HasSubstr("reached at full speed"));
+}
+
+TEST(SpaceTimeSetup, RefusesAStartInTheScenesPast) {
+  EXPECT_THAT(Refusal([](Problem& p) { p.origin = Time() - std::chrono::nanoseconds(1); }),
+              HasSubstr("start: is at -1 ns, in the past of the scene, which is of 0"));
 }
 
 TEST(SpaceTimeSetup, AnArrivalAtTheVeryLatestIsOne) {

@@ -111,7 +111,7 @@ TEST_F(BadIntervals, Edges) {
          "resolution_ns");
   Expect(refused([](auto& r, auto&) { r.set_resolution_ns(100); }), Code::kInvalidArgument,
          "window");
-  const std::int64_t last_ns = std::int64_t{1} << 62;
+  const std::int64_t last_ns = kFarthest_ns;
   Expect(refused([&](auto& r, auto& m) {
            r.mutable_window()->set_from_ns(last_ns);
            r.mutable_window()->set_until_ns(last_ns);

@@ -25,6 +25,9 @@ using Time = SensorClock::time_point;
 constexpr Time TimeFromNanoseconds(std::int64_t ns) { return Time(Duration(ns)); }
 constexpr std::int64_t ToNanoseconds(Time time) { return time.time_since_epoch().count(); }
 
+// No time further than this from 0 is accepted (146 years): the difference of two never overflows.
+constexpr std::int64_t kFarthest_ns = (std::int64_t{1} << 62) - 1;
+
 constexpr double ToSeconds(Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }

@@ -19,7 +19,7 @@ namespace clearway {
 //   if (setup.ok() && (*setup)->solve(1.0)) ... (*setup)->getSolutionPath() ...
 //
 // SimpleSetup::simplifySolution knows no time: leave it. Errors are MakeSpaceInformation's and
-// MakeSpaceTimeProblem's.
+// MakeSpaceTimeProblem's, and INVALID_ARGUMENT for a start in the scene's past.
 absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeSpaceTimeSetup(
     const std::shared_ptr<SpaceTimeStateSpace>& space, std::shared_ptr<const StateChecker> checker,
     StateMapping mapping, PlanningOptions options, const ompl::base::State* start,
