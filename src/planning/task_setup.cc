@@ -31,9 +31,9 @@ absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
   const double arrival_s =
       space->MinSeconds(SpaceTimeStateSpace::SpacePart(start.get()), goal_part);
   if (arrival_s > ToSeconds(task.time_limit)) {
-    return absl::OutOfRangeError(absl::StrCat("time_limit_s is ", ToSeconds(task.time_limit),
-                                              "; at full speed the goal is reached after ",
-                                              arrival_s, " s"));
+    return absl::InvalidArgumentError(absl::StrCat("time_limit_s is ", ToSeconds(task.time_limit),
+                                                   "; at full speed the goal is reached after ",
+                                                   arrival_s, " s"));
   }
   PlanningOptions options;
   options.check = task.options.check;

@@ -15,9 +15,9 @@ namespace clearway {
 // arrives earlier than all before it goes to `found`, the last one is the best. A plan's
 // motion is proved free before it is shown.
 //
-// INVALID_ARGUMENT as Validate(task) and for a start in the scene's past; OUT_OF_RANGE if the goal
-// cannot be reached within the time limit at full speed; else the first failure of the checker, if
-// no plan was found in spite of it.
+// INVALID_ARGUMENT as Validate(task), for a start in the scene's past and for a time limit in which
+// the goal cannot be reached at full speed; else the first failure of the checker, if no plan was
+// found in spite of it.
 absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const StateChecker> checker,
                                   Duration budget, const std::function<void(const Plan&)>& found,
                                   const std::function<bool()>& cancelled);
