@@ -64,12 +64,18 @@ absl::StatusOr<RobotFile> ParseRobot(const std::filesystem::path& name, const st
   return robot;
 }
 
+absl::StatusOr<RobotFile> ParseShortRobot(const std::string& text) {
+  auto shape = ParseShapeText(text);
+  if (!shape.ok()) return shape.status();
+  RobotFile file{Robot::SingleShape(text, *std::move(shape)), {Pose{}}};
+  file.robot.links[0].name = "body";
+  return file;
+}
+
 absl::StatusOr<RobotFile> LoadRobot(const std::string& file_or_shape) {
   if (!std::filesystem::exists(file_or_shape) && file_or_shape.find(':') != std::string::npos) {
-    auto shape = ParseShapeText(file_or_shape);
-    if (!shape.ok()) return UsageError(absl::StrCat("--robot: ", shape.status().message()));
-    RobotFile file{Robot::SingleShape(file_or_shape, *std::move(shape)), {Pose{}}};
-    file.robot.links[0].name = "body";
+    auto file = ParseShortRobot(file_or_shape);
+    if (!file.ok()) return UsageError(absl::StrCat("--robot: ", file.status().message()));
     return file;
   }
   const auto text =

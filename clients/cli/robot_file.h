@@ -20,8 +20,11 @@ struct RobotFile {
 // the field ("robot.json: links[0].shapes[1].radius_m: ...") or the line and column of broken JSON.
 absl::StatusOr<RobotFile> ParseRobot(const std::filesystem::path& name, const std::string& text);
 
-// A robot file, or one shape in short: "box:1,0.7,1", "sphere:0.3", "cylinder:0.3,1.2" and
-// "capsule:0.3,0.6" (radius, length): one link called "body", centred at the state's position.
+// One shape in short: "box:1,0.7,1", "sphere:0.3", "cylinder:0.3,1.2" and "capsule:0.3,0.6"
+// (radius, length): one link called "body", centred at the state's position.
+absl::StatusOr<RobotFile> ParseShortRobot(const std::string& shape);
+
+// The value of --robot: a robot file, or one shape in short.
 absl::StatusOr<RobotFile> LoadRobot(const std::string& file_or_shape);
 
 }  // namespace clearway::cli

@@ -18,10 +18,12 @@ absl::StatusOr<Robot> ParseRobotField(const JsonFields& fields, const Json& valu
                                       const std::filesystem::path& folder) {
   if (!value.contains("robot")) return fields.Error("robot", "missing");
   const Json& field = value.at("robot");
-  auto file = field.is_string() ? LoadRobot(field.get<std::string>().find(':') == std::string::npos
-                                                ? (folder / field.get<std::string>()).string()
-                                                : field.get<std::string>())
-                                : ParseRobot(folder / fields.PathOf("robot"), field.dump());
+  const std::string text = field.is_string() ? field.get<std::string>() : "";
+  const bool is_short = text.find(':') != std::string::npos;
+  auto file = !field.is_string() ? ParseRobot(folder / fields.PathOf("robot"), field.dump())
+              : is_short         ? ParseShortRobot(text)
+                                 : LoadRobot((folder / text).string());
+  if (!file.ok() && is_short) return fields.Error("robot", std::string(file.status().message()));
   if (!file.ok()) return file.status();
   for (std::size_t l = 0; l < file->robot.links.size(); ++l) {
     if (arm && !(file->T_R_L[l] == Pose{})) {

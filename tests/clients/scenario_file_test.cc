@@ -100,7 +100,7 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("\"start\": [-5, 0]", "\"start\": [-50, 0]", "start[0] is -50");
   expect("\"max_speed_mps\": 1.5", "\"max_speed_mps\": 0", "max_speed_mps is 0");
   expect("\"free\"", "\"fre\"", "unknown: ");
-  expect("cylinder:0.3,1", "cylinder:0.3", "cylinder:0.3");
+  expect("cylinder:0.3,1", "cylinder:0.3", "s.json: robot: expected box:x,y,z");
   expect("\"id\": 3", "\"id\": 3.5", "objects[0].id: expected a whole number");
   expect("\"t_s\": 10, ", "", "objects[0].future[0].t_s: missing");
   expect("\"t_s\": 10, ", "\"t_s\": 1e15, ",
