@@ -64,7 +64,7 @@ void MotionStops::StopAtUnknownShare(const TimeSpan& span, MotionStop& stop) {
     touched.Add(touch.share, slack_m);
   }
   const Time until = stop.share >= 1 ? span.until : span.At(stop.share);
-  const Duration least = leg_->shortest / 2;
+  const Duration least = std::max(Duration(1), leg_->shortest / 2);
   for (Time t = span.At(touched.until()); touched.share < stop.share && t < until;) {
     const TimeSpan step{t, std::min(until, t + unknown_step_)};
     if (MostUnknownShare(step) <= options_.max_unknown_fraction) {

@@ -200,6 +200,29 @@ TEST(MotionCheckInNanoseconds, ATurnThatEndsInContactIsNotFree) {
   }
 }
 
+// Where unknown space is tolerated motions are looked at in steps, which no motion is too short
+// for.
+TEST(MotionCheckInNanoseconds, EndsWhereUnknownSpaceIsTolerated) {
+  const SceneChecker checker(TestWorld().Scene(), Robot::SingleShape("box", Box{{1, 1, 1}}));
+  MotionOptions options;
+  options.check.unknown = UnknownPolicy::kTolerated;
+  options.check.max_unknown_fraction = 0.5;
+  options.check.known_free_W = {{{-9, -9, -9}, {0, 9, 9}}};
+  for (const int lasts_ns : {1, 2, 3, 100, 10'000}) {
+    for (const double resolution_m : {1e-2, 1e-4}) {
+      options.contact_resolution_m = resolution_m;
+      const auto dut =
+          checker.CheckMotions({{2},
+                                {kTestStart, kTestStart + Duration(lasts_ns)},
+                                {Pose::Translation(-0.3, 0, 0), Pose::Translation(0.7, 0, 0)},
+                                {}},
+                               options);
+      ASSERT_TRUE(dut.ok()) << dut.status();
+      EXPECT_NE(dut->answers[0].status, SpaceStatus::kFree) << lasts_ns << " " << resolution_m;
+    }
+  }
+}
+
 // A padding of hundreds of metres has millions of blocks to look at.
 TEST_F(MotionCheckAtAWall, EndsOrMayBeCancelledHoweverMuchThereIsToLookAt) {
   options_.check.unknown = UnknownPolicy::kBlocked;
