@@ -1,4 +1,4 @@
-#include "server/cancellable_checker.h"
+#include "clearway/collision/cancellable_checker.h"
 #include "server/handler.h"
 #include "server/motion_question.h"
 #include "server/services.h"

@@ -24,7 +24,8 @@ AnytimeSearch::AnytimeSearch(const ob::SpaceInformationPtr& si, const SpaceTimeS
       checks_(si),
       search_(space, roadmap_, checks_),
       sampler_(space.space()->allocStateSampler()),
-      there_(si->allocState()) {}
+      there_(si->allocState()),
+      latest_s_(space.latest_s()) {}
 
 AnytimeSearch::~AnytimeSearch() { si_->freeState(there_); }
 
@@ -112,7 +113,7 @@ bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCon
     } else {
       SampleNearPlaces(part);
     }
-    if (ArrivalBy(part) >= std::min(Arrival(), space_.latest_s())) continue;
+    if (ArrivalBy(part) >= std::min(Arrival(), latest_s_)) continue;
     roadmap_.Add(part);
     ++added;
   }
@@ -122,13 +123,14 @@ bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCon
 
 bool AnytimeSearch::Search(double weight, const ob::Goal& goal,
                            const ob::PlannerTerminationCondition& until) {
+  const double just_later_s = std::nextafter(latest_s_, 2 * latest_s_);
   std::vector<Stay> found = search_.Find(
       {.starts = starts_,
        .goals = goals_,
        .arrives = [&](std::size_t place, double from_s,
                       double until_s) { return Arrives(goal, place, from_s, until_s); },
        .weight = weight,
-       .earlier_than_s = Arrival() - kEarlier_s,
+       .earlier_than_s = std::min(Arrival() - kEarlier_s, just_later_s),
        .most_ways = kWaysEach * roadmap_.size(),
        .cancelled = [&] { return until(); }});
   if (found.empty()) return false;
@@ -146,8 +148,10 @@ void AnytimeSearch::JoinAlongPath() {
 }
 
 bool AnytimeSearch::GoalsAreTaken() {
-  return std::ranges::none_of(
-      goals_, [&](std::size_t goal) { return checks_.IsEverFree(roadmap_.Place(goal)); });
+  return std::ranges::none_of(goals_, [&](std::size_t goal) {
+    const ob::State* const part = roadmap_.Place(goal);
+    return checks_.IsEverFree(part, ArrivalBy(part));
+  });
 }
 
 std::shared_ptr<og::PathGeometric> AnytimeSearch::Path() const {

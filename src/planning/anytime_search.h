@@ -6,6 +6,7 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -29,6 +30,8 @@ class AnytimeSearch {
 
   void AddStart(const ompl::base::State* part, double seconds);
   bool has_start() const { return !starts_.empty(); }
+  // The arrival shall not be later than that.
+  void ArriveBy(double latest_s) { latest_s_ = std::min(latest_s_, latest_s); }
   // To be at the place when the goal says so.
   void AddGoal(const ompl::base::State* part);
   // The same, and it may do so at that time only. False if that is known.
@@ -49,7 +52,7 @@ class AnytimeSearch {
     return path_.empty() ? std::numeric_limits<double>::infinity() : path_.back().arrival_s;
   }
   std::shared_ptr<ompl::geometric::PathGeometric> Path() const;
-  // Whether no goal is free, whenever one looks.
+  // Whether no goal is free, whenever one looks from when it can be reached on.
   bool GoalsAreTaken();
 
   std::size_t places() const { return roadmap_.size(); }
@@ -78,6 +81,7 @@ class AnytimeSearch {
   ompl::base::StateSamplerPtr sampler_;
   ompl::base::State* there_;  // owned; of At
   ompl::RNG random_;
+  double latest_s_;
   std::vector<std::pair<std::size_t, double>> starts_;
   std::vector<std::size_t> goals_;
   std::vector<std::pair<std::size_t, double>> timed_goals_;  // of goals_, with times

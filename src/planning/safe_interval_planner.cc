@@ -64,6 +64,11 @@ SafeIntervalPlanner::SafeIntervalPlanner(const ob::SpaceInformationPtr& si)
 
 SafeIntervalPlanner::~SafeIntervalPlanner() = default;
 
+void SafeIntervalPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr& problem) {
+  if (problem != pdef_) clear();
+  ob::Planner::setProblemDefinition(problem);
+}
+
 void SafeIntervalPlanner::clear() {
   ob::Planner::clear();
   impl_.reset();
@@ -95,6 +100,7 @@ void SafeIntervalPlanner::AddStarts() {
 void SafeIntervalPlanner::AddGoals(const ob::PlannerTerminationCondition& until) {
   if (const auto* goal = dynamic_cast<const GoalPoseBefore*>(pdef_->getGoal().get())) {
     impl_->search.AddGoal(goal->goal_part());
+    impl_->search.ArriveBy(goal->latest_s());
     return;
   }
   while (impl_->search.timed_goals() < kMostGoals) {
@@ -122,17 +128,19 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   // After the first path the same places are searched for the best one; after that they yield no
   // more.
   bool more = true;
+  // Somebody may have taken it away since the last solve.
+  bool enough = impl_->search.found() && !pdef_->hasExactSolution() && AddSolution();
   impl_->shown_from.reset();
-  while (more && !until()) {
+  while (more && !enough && !until()) {
     const bool first = !impl_->search.found();
     const bool earlier = impl_->search.Search(first ? kGreedy : 1, *pdef_->getGoal(), until);
     ShowProgress();
     if (earlier) {
-      AddSolution();
+      enough = AddSolution();
       impl_->search.JoinAlongPath();
       if (first) continue;
     }
-    if (!until()) {
+    if (!enough && !until()) {
       more = impl_->search.AddPlaces(std::max<std::size_t>(first_batch_, impl_->search.places()),
                                      until);
     }
@@ -143,17 +151,21 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   return ob::PlannerStatus::TIMEOUT;
 }
 
-void SafeIntervalPlanner::AddSolution() {
+// Whether the objective asks for no better one.
+bool SafeIntervalPlanner::AddSolution() {
   const auto path = impl_->search.Path();
   const ob::OptimizationObjectivePtr objective = pdef_->getOptimizationObjective();
   ob::PlannerSolution solution(path);
   solution.setPlannerName(getName());
-  solution.setOptimized(objective, path->cost(objective), false);
+  const ob::Cost cost = path->cost(objective);
+  const bool enough = objective->isSatisfied(cost);
+  solution.setOptimized(objective, cost, enough);
   pdef_->addSolutionPath(solution);
   if (const auto& report = pdef_->getIntermediateSolutionCallback()) {
     const std::vector<ob::State*>& states = path->getStates();
-    report(this, {states.rbegin(), states.rend()}, path->cost(objective));
+    report(this, {states.rbegin(), states.rend()}, cost);
   }
+  return enough;
 }
 
 void SafeIntervalPlanner::getPlannerData(ob::PlannerData& data) const {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "clearway/collision/safe_intervals.h"
+#include "clearway/collision/cancellable_checker.h"
 #include "clearway/planning/safe_interval_planner.h"
 #include "clearway/planning/space_information.h"
 #include "clearway/planning/space_time_problem.h"
@@ -22,6 +22,16 @@ namespace og = ompl::geometric;
 constexpr double kThere_s = 1e-6;
 // How finely paths are cut for Plan::motion where links go on curves.
 constexpr double kLeg_m = 0.0125;
+// What is asked when the budget ends may take so much longer.
+constexpr auto kGrace = std::chrono::milliseconds(100);
+
+// A checker that ends within a question, if it is in this process.
+std::shared_ptr<const StateChecker> EndingWhen(const std::function<bool()>& late,
+                                               std::shared_ptr<const StateChecker> checker) {
+  auto local = std::dynamic_pointer_cast<const SceneChecker>(checker);
+  if (local == nullptr) return checker;
+  return std::make_shared<CancellableChecker>(std::move(local), late);
+}
 
 // A solve at work: the task, and OMPL's side of it.
 class Work {
@@ -44,7 +54,7 @@ class Work {
                             setup_->getGoal()->as<GoalPoseBefore>()->goal_part()) < kThere_s;
   }
 
-  // kFound, kNotFound or kNoTimeToSpare; each plan goes to `found`.
+  // What the planner says; each plan goes to `found`.
   PlanStatus Plan(const ob::PlannerTerminationCondition& until,
                   const std::function<void(const clearway::Plan&)>& found) {
     bool any = false;
@@ -59,15 +69,15 @@ class Work {
     setup_->setup();
     const ob::PlannerStatus end = setup_->getPlanner()->solve(until);  // the set-up's would print
     if (any) return PlanStatus::kFound;
+    if (end == ob::PlannerStatus::INVALID_GOAL) return PlanStatus::kGoalBlocked;
     return end == ob::PlannerStatus::ABORT ? PlanStatus::kNoTimeToSpare : PlanStatus::kNotFound;
   }
 
   // As of the last motion that was asked about.
   Duration horizon() const { return horizon_; }
 
-  // What is in the way at the goal at all times at which it could be reached; none if it is free at
-  // one of them.
-  absl::StatusOr<std::optional<StateAnswer>> BlockerOfGoal() const {
+  // At the goal when it can first be reached.
+  StateAnswer AtGoal() const {
     const auto& space = *setup_->getStateSpace()->as<SpaceTimeStateSpace>();
     const ob::State* const start = setup_->getProblemDefinition()->getStartState(0);
     ob::ScopedState<> state(setup_->getStateSpace(), start);
@@ -75,13 +85,6 @@ class Work {
     space.space()->copyState(part, setup_->getGoal()->as<GoalPoseBefore>()->goal_part());
     SpaceTimeStateSpace::SetSeconds(state.get(),
                                     space.MinSeconds(SpaceTimeStateSpace::SpacePart(start), part));
-    StateBatch goal;
-    if (auto status = query_.mapping().Append(state.get(), goal); !status.ok()) return status;
-    const TimeInterval window{goal.times[0], task_.start_time + task_.time_limit};
-    const auto free =
-        FindSafeIntervals(*checker_, goal.T_W_L, window, {.check = task_.options.check});
-    if (!free.ok()) return free.status();
-    if (!(*free)[0].empty()) return std::nullopt;
     return query_.CheckState(state.get());
   }
 
@@ -138,6 +141,13 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
                                   Duration budget, const std::function<void(const Plan&)>& found,
                                   const std::function<bool()>& cancelled) {
   const auto end = std::chrono::steady_clock::now() + budget;
+  bool late = false;  // a question was not answered for lack of time
+  checker = EndingWhen(
+      [&] {
+        late = late || cancelled() || std::chrono::steady_clock::now() >= end + kGrace;
+        return late;
+      },
+      std::move(checker));
   auto setup = MakeTaskSetup(task, checker);
   if (!setup.ok()) return setup.status();
   Work work(task, checker, *std::move(setup));
@@ -146,6 +156,7 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   outcome.stamp = checker->stamp();
   outcome.inflation_mps = task.options.check.inflation_mps;
   const StateAnswer start = work.AtStart();
+  if (late) return outcome;
   if (auto error = work.first_error(); !error.ok()) return error;
   if (start.status != SpaceStatus::kFree) {
     outcome.status = PlanStatus::kStartBlocked;
@@ -159,16 +170,13 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   }
   const ob::PlannerTerminationCondition until(
       [&] { return cancelled() || std::chrono::steady_clock::now() >= end; });
-  outcome.status = work.Plan(until, found);
+  const PlanStatus status = work.Plan(until, found);
   outcome.horizon = work.horizon();
-  if (outcome.status == PlanStatus::kFound) return outcome;
+  if (late && status != PlanStatus::kFound) return outcome;
+  outcome.status = status;
+  if (status == PlanStatus::kFound) return outcome;
   if (auto error = work.first_error(); !error.ok()) return error;
-  const auto blocker = work.BlockerOfGoal();
-  if (!blocker.ok()) return blocker.status();
-  if (*blocker) {
-    outcome.status = PlanStatus::kGoalBlocked;
-    outcome.blocker = **blocker;
-  }
+  if (status == PlanStatus::kGoalBlocked) outcome.blocker = work.AtGoal();
   return outcome;
 }
 

@@ -94,9 +94,9 @@ WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part,
   return {false, false, FreeAgain(begin_s + after_s, kOfWhatPassedOnWays) - after_s};
 }
 
-bool TimedChecks::IsEverFree(const ob::State* part) {
+bool TimedChecks::IsEverFree(const ob::State* part, double from_s) {
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(0) || !std::isinf(FreeAgain(0, kOfWhatPassedAtPlaces));
+  return IsFreeAt(from_s) || !std::isinf(FreeAgain(from_s, kOfWhatPassedAtPlaces));
 }
 
 bool TimedChecks::IsFreeAt(double seconds) {

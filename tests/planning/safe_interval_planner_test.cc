@@ -120,6 +120,41 @@ TEST(SafeIntervalPlanner, EveryReportedArrivalIsEarlierThanTheOneBefore) {
       crossing.si->equalStates(data.getVertex(0).getState(), again.getVertex(0).getState()));
 }
 
+TEST(SafeIntervalPlanner, GivesItsPathAgainToAProblemThatHasLostIt) {
+  Crossing crossing(OneVehicle());
+  SafeIntervalPlanner dut(crossing.si);
+  ASSERT_EQ(Solve(dut, crossing.problem, 500), ob::PlannerStatus::EXACT_SOLUTION);
+  crossing.problem->clearSolutionPaths();
+  ASSERT_EQ(Solve(dut, crossing.problem, 500), ob::PlannerStatus::EXACT_SOLUTION);
+  EXPECT_TRUE(crossing.problem->hasExactSolution());
+}
+
+TEST(SafeIntervalPlanner, BeginsAnotherProblemAnew) {
+  Crossing crossing({});
+  SafeIntervalPlanner dut(crossing.si);
+  ASSERT_EQ(Solve(dut, crossing.problem, 500), ob::PlannerStatus::EXACT_SOLUTION);
+  const auto back = MakeSpaceTimeProblem(crossing.si, crossing.goal.get(),
+                                         SpaceTimeStateSpace::SpacePart(crossing.start.get()), {})
+                        .value();
+  ASSERT_EQ(Solve(dut, back, 500), ob::PlannerStatus::EXACT_SOLUTION);
+  const auto& path = *back->getSolutionPath()->as<og::PathGeometric>();
+  EXPECT_TRUE(crossing.si->equalStates(path.getState(0), crossing.goal.get()));
+  EXPECT_TRUE(back->getGoal()->isSatisfied(path.getState(path.getStateCount() - 1)));
+}
+
+TEST(SafeIntervalPlanner, EndsWithAPathThatIsGoodEnoughForTheObjective) {
+  Crossing crossing(TwoLanes());
+  const auto any = std::make_shared<EarliestArrivalObjective>(crossing.si);
+  any->setCostThreshold(any->infiniteCost());
+  crossing.problem->setOptimizationObjective(any);
+  SafeIntervalPlanner dut(crossing.si);
+  int paths = 0;
+  crossing.problem->setIntermediateSolutionCallback(
+      [&](const ob::Planner*, const std::vector<const ob::State*>&, ob::Cost) { ++paths; });
+  ASSERT_EQ(Solve(dut, crossing.problem, 1'000'000'000), ob::PlannerStatus::EXACT_SOLUTION);
+  EXPECT_EQ(paths, 1);
+}
+
 TEST(SafeIntervalPlanner, ItsDataTellTheGoal) {
   Crossing crossing({});
   SafeIntervalPlanner dut(crossing.si);

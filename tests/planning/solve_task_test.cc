@@ -192,6 +192,17 @@ TEST(SolveTask, SaysWhatIsInTheWayOfStartOrGoal) {
   EXPECT_TRUE(solved.plans.empty());
 }
 
+// To sum up what part of a large robot is unknown all along a way takes seconds.
+TEST(SolveTask, EndsWithinAQuestionThatTakesLong) {
+  PlanTask task = AcrossThePlace();
+  task.options.check.unknown = UnknownPolicy::kTolerated;
+  task.options.check.max_unknown_fraction = 1;
+  const Robot robot = Robot::SingleShape("hall", Box{{50, 50, 7}});
+  const Solved solved = SolveIn(TestWorld().Scene(), robot, task, milliseconds(10));
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kNotFound);
+}
+
 TEST(SolveTask, EndsInTimeWhereThereIsNoWay) {
   TestWorld world;
   world.Given(1, Box{{0.2, 30, 2}}, Pose::Translation(0, 0, 0));

@@ -27,6 +27,7 @@ struct Problem {
   std::vector<double> start{-4, 0, 0}, goal{4, 0, 0};
   GoalOptions options;
   Time origin;
+  std::vector<MovingDisc> discs;
 
   absl::StatusOr<ompl::geometric::SimpleSetupPtr> Setup() const {
     auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
@@ -37,10 +38,9 @@ struct Problem {
     bounds.low.assign(2, low);
     bounds.high.assign(2, high);
     const_cast<ob::RealVectorBounds&>(plane->getBounds()) = bounds;  // OMPL's setter throws
-    return MakeSpaceTimeSetup(
-        space, std::make_shared<DiscChecker>(DeliveryRobot(), std::vector<MovingDisc>()),
-        StateMapping::R2(DeliveryRobot(), {}, TimeSince{origin}), {}, from.get(),
-        SpaceTimeStateSpace::SpacePart(to.get()), options);
+    return MakeSpaceTimeSetup(space, std::make_shared<DiscChecker>(DeliveryRobot(), discs),
+                              StateMapping::R2(DeliveryRobot(), {}, TimeSince{origin}), {},
+                              from.get(), SpaceTimeStateSpace::SpacePart(to.get()), options);
   }
 };
 
@@ -111,6 +111,18 @@ TEST(SpaceTimeSetup, RefusesArrivalsBeforeTheEarliest) {
 TEST(SpaceTimeSetup, RefusesAStartInTheScenesPast) {
   EXPECT_THAT(Refusal([](Problem& p) { p.origin = Time() - std::chrono::nanoseconds(1); }),
               HasSubstr("start: is at -1 ns, in the past of the scene, which is of 0"));
+}
+
+// Of the problem, whatever the space allows.
+TEST(SpaceTimeSetup, SaysThatTheLatestArrivalLeavesNoWayRound) {
+  Problem problem;
+  problem.discs = {{{0, 0}, {0, 0}, 1}};
+  problem.options.latest = std::chrono::seconds(8);
+  const auto dut = problem.Setup();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ((*dut)->solve(60.0), ob::PlannerStatus::ABORT);
+  problem.options.latest = std::chrono::seconds(9);
+  EXPECT_EQ((*problem.Setup())->solve(0.3), ob::PlannerStatus::EXACT_SOLUTION);
 }
 
 TEST(SpaceTimeSetup, AnArrivalAtTheVeryLatestIsOne) {

@@ -56,9 +56,12 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and the
   // latest time leaves none for another; TIMEOUT if `until` held before a path was found; else
   // EXACT_SOLUTION, with the earliest arrival found when `until` held, or with one that no path can
-  // beat. Gives the problem the objective EarliestArrivalObjective if it has none.
+  // beat or that is good enough for the problem's objective (its cost threshold). Gives the problem
+  // the objective EarliestArrivalObjective if it has none.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
+  // Another problem than the one before is begun anew.
+  void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& problem) override;
   void setup() override;
   // Of the search that found the path, or of the last one if none did: the stays, at the times of
   // arrival, and the ways between them. The states are the planner's, until clear().
@@ -68,7 +71,7 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   struct Impl;
   void AddStarts();
   void AddGoals(const ompl::base::PlannerTerminationCondition& until);
-  void AddSolution();
+  bool AddSolution();
 
   std::unique_ptr<Impl> impl_;
   // For other threads, as of the last search.

@@ -37,6 +37,8 @@ class GoalPoseBefore : public ompl::base::GoalSampleableRegion {
 
   // A state of the space without time.
   const ompl::base::State* goal_part() const { return goal_part_; }
+  // When to arrive at the latest, in seconds of the space.
+  double latest_s() const { return latest_s_; }
 
  private:
   const SpaceTimeStateSpace* space_time_;
