@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/client/error_details.h"
 #include "clearway/client/remote_planner.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/report/table.h"
@@ -26,7 +27,8 @@ constexpr char kExamples[] =
     "it\n"
     "holds are in the server's scene while the plan is made; a file without any plans in the "
     "scene\n"
-    "as it is. Its times count from the scene's newest stamp.";
+    "as it is. Its times count from the scene's newest stamp; without start_s the robot starts at\n"
+    "the newest stamp when the plan is made.";
 
 struct Flags {
   ServerFlags server;
@@ -138,6 +140,25 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
   Print(out, json);
 }
 
+// A scenario that starts at once does so when the scene is that old: frames may have come since its
+// objects were added, and may come while this is asked.
+absl::StatusOr<PlanOutcome> PlanWith(const RemotePlanner& planner, const SceneClient& client,
+                                     Scenario& scenario, Duration budget, std::uint64_t version,
+                                     const std::function<bool(const Plan&)>& found) {
+  constexpr int kTries = 10;
+  for (int tries = 1;; ++tries) {
+    if (scenario.starts_at_once) {
+      const auto status = client.GetStatus();
+      if (!status.ok()) return status.status();
+      scenario.task.start_time = std::max(scenario.task.start_time, status->stamp);
+    }
+    auto outcome = planner.Plan(scenario.task, budget, found, {version, ""});
+    const bool too_late = absl::IsInvalidArgument(outcome.status()) &&
+                          DetailsOf(outcome.status()).field == "start_ns";
+    if (!too_late || !scenario.starts_at_once || tries == kTries) return outcome;
+  }
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   auto scenario = LoadScenario(flags.file);
   if (!scenario.ok()) return scenario.status();
@@ -166,7 +187,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     return !flags.first;
   };
   const auto outcome =
-      (*planner)->Plan(scenario->task, FromSeconds(flags.budget_s), found, {*version, ""});
+      PlanWith(**planner, client, *scenario, FromSeconds(flags.budget_s), *version, found);
   if (!outcome.ok()) return outcome.status();
   if (flags.json) {
     PrintJson(terminal.out, plans, *outcome, scenario->task);

@@ -72,6 +72,10 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
     if (!read.ok()) return read.status();
     *number = *read;
   }
+  if (!fields.Has("time_limit_s")) return fields.Error("time_limit_s", "missing");
+  if (!std::holds_alternative<ArmSpace>(task.space) && !fields.Has("max_speed_mps")) {
+    return fields.Error("max_speed_mps", "missing");
+  }
   Duration start{};
   for (const auto& [name, duration] :
        {std::pair{"start_s", &start}, {"time_limit_s", &task.time_limit}}) {
@@ -109,6 +113,7 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
     scenario.optimum_s = *optimum_s;
   }
   if (auto status = ParseTask(*fields, json, scenario.task); !status.ok()) return status;
+  scenario.starts_at_once = !fields->Has("start_s");
   const bool arm = std::holds_alternative<ArmSpace>(scenario.task.space);
   auto robot = ParseRobotField(*fields, json, arm, folder);
   if (!robot.ok()) return robot.status();

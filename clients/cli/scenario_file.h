@@ -17,6 +17,7 @@ struct Scenario {
   std::string name;
   Robot robot;
   PlanTask task;
+  bool starts_at_once = true;        // when is not stated
   std::vector<GivenObject> objects;  // that the scene gets for it
   bool solvable = true;
   std::optional<double> optimum_s;  // no plan arrives earlier, in seconds after the start
