@@ -106,7 +106,7 @@ void Measure(const SceneChecker& checker, const FclChecker* fcl, const Asked& as
   ratios.unresolved += status == SpaceStatus::kUnresolved;
   ratios.free_in_contact += status == SpaceStatus::kFree && !free;
   if (fcl == nullptr) return;
-  const double fcl_us = Took<std::micro>([&] {
+  const double fcl_us = LeastUs([&] {
     benchmark::DoNotOptimize(std::none_of(asked.steps.T_W_L.begin(), asked.steps.T_W_L.end(),
                                           [&](const Pose& pose) { return fcl->Collides(pose); }));
   });

@@ -138,7 +138,11 @@ void RunSolvable(benchmark::State& state, const cli::Scenario& scenario, const s
         std::max(worst.over_optimum_x, ours.arrival_s.median / *scenario.optimum_s);
   }
   state.counters["plan_" + file + "_first_ms"] = 1e3 * ours.first_s.median;
+  state.counters["plan_" + file + "_first_low_ms"] = 1e3 * ours.first_s.low;
+  state.counters["plan_" + file + "_first_high_ms"] = 1e3 * ours.first_s.high;
   state.counters["plan_" + file + "_arrival_s"] = ours.arrival_s.median;
+  state.counters["plan_" + file + "_arrival_low_s"] = ours.arrival_s.low;
+  state.counters["plan_" + file + "_arrival_high_s"] = ours.arrival_s.high;
 }
 
 // There must be no plan, and an end in time.
