@@ -65,6 +65,8 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
     return absl::InvalidArgumentError(
         absl::StrCat("tolerance: is ", options.tolerance, ", must be above 0"));
   }
+  if (start == nullptr) return absl::InvalidArgumentError("start: is null");
+  if (goal_part == nullptr) return absl::InvalidArgumentError("goal_part: is null");
   if (!IsWithin(*space_time, start)) {
     return absl::InvalidArgumentError("start: outside the space's bounds");
   }

@@ -20,6 +20,7 @@ absl::StatusOr<og::SimpleSetupPtr> MakeSpaceTimeSetup(
   const auto si =
       MakeSpaceInformation(space, std::move(checker), std::move(mapping), std::move(options));
   if (!si.ok()) return si.status();
+  if (start == nullptr) return absl::InvalidArgumentError("start: is null");
   const auto begin = QueryOf(**si)->mapping().TimeOf(start);
   if (!begin.ok()) return begin.status();
   if (const Time stamp = QueryOf(**si)->checker().stamp(); *begin < stamp) {

@@ -97,6 +97,19 @@ TEST(SpaceTimeSetup, RefusesEndsThatAreNoPlaces) {
   EXPECT_THAT(Refusal([](Problem& p) { p.goal[0] = 6; }), HasSubstr("goal_part"));
 }
 
+TEST(SpaceTimeSetup, RefusesEndsThatAreNull) {
+  const Crossing crossing({});
+  const ob::State* const goal = SpaceTimeStateSpace::SpacePart(crossing.goal.get());
+  const auto refusal = [&](const ob::State* start, const ob::State* goal_part) {
+    const auto mapping = StateMapping::Se2(DeliveryRobot(), {}, TimeSince{Time()});
+    const auto dut =
+        MakeSpaceTimeSetup(crossing.space, crossing.checker, mapping, {}, start, goal_part, {});
+    return std::string(dut.status().message());
+  };
+  EXPECT_EQ(refusal(nullptr, goal), "start: is null");
+  EXPECT_EQ(refusal(crossing.start.get(), nullptr), "goal_part: is null");
+}
+
 TEST(SpaceTimeSetup, RefusesTolerancesThatNothingMeets) {
   for (const double bad : {0.0, -1.0, kNan}) {
     EXPECT_THAT(Refusal([=](Problem& p) { p.options.tolerance = bad; }), HasSubstr("tolerance"));
