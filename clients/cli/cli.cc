@@ -20,6 +20,7 @@ constexpr char kFooter[] =
 void AddAllCommands(Cli& cli) {
   AddSimulate(cli);
   AddInfo(cli);
+  AddEvaluate(cli);
   AddReplay(cli);
   AddStatus(cli);
   AddObjects(cli);

@@ -8,6 +8,7 @@ namespace clearway::cli {
 // Sources of frames, no server needed.
 void AddSimulate(Cli& cli);
 void AddInfo(Cli& cli);
+void AddEvaluate(Cli& cli);
 
 // Everything below talks to a server.
 void AddReplay(Cli& cli);

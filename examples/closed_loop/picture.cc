@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_format.h"
 #include "clearway/report/top_view.h"
-#include "demo/truth.h"
+#include "clearway/report/truth.h"
 
 namespace clearway::closed_loop {
 namespace {
@@ -47,9 +47,9 @@ absl::Status WritePicture(const Course& course, const LoopResult& result,
     if (knot.time <= until)
       driven.poses.push_back({knot.time + shift, course.errand.carrier.LinkPose(knot.p_W)});
   }
-  const demo::Truth truth = demo::TruthOf(std::make_shared<const World>(course.world), until);
+  const Truth truth = TruthOf(std::make_shared<const World>(course.world), until);
   for (Time time; time <= until; time += kShownEvery) {
-    for (TopViewOutline& outline : demo::OutlinesAt(truth, time)) {
+    for (TopViewOutline& outline : OutlinesAt(truth, time)) {
       outline.time += shift;
       options.recorded.push_back(std::move(outline));
     }

@@ -8,7 +8,7 @@
 #include "clearway/collision/robot.h"
 #include "clearway/geometry/timed_pose.h"
 #include "clearway/planning/state_mapping.h"
-#include "demo/truth.h"
+#include "clearway/report/truth.h"
 
 namespace clearway::demo {
 

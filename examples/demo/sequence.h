@@ -8,8 +8,8 @@
 
 #include "absl/status/statusor.h"
 #include "clearway/io/frame_source.h"
+#include "clearway/report/truth.h"
 #include "demo/crossing.h"
-#include "demo/truth.h"
 
 namespace clearway::demo {
 

@@ -19,8 +19,8 @@ Finished Clearway(std::vector<std::string> arguments, const std::string& input =
 }
 
 std::vector<std::string> Commands() {
-  return {"simulate", "info",   "replay",     "status", "objects",     "occupancy",
-          "check",    "export", "load-prior", "reset",  "server-info", "bench"};
+  return {"simulate", "info",  "evaluate", "replay",     "status", "objects",     "occupancy",
+          "plan",     "check", "export",   "load-prior", "reset",  "server-info", "bench"};
 }
 
 TEST(CommandLine, Empty) {
@@ -127,6 +127,34 @@ TEST(CommandLine, SimulatesAndListsARecording) {
   EXPECT_EQ(info["frames"], 4);
   EXPECT_EQ(info["points"], summary["points"]);
   EXPECT_THAT(Clearway({"info", file}).out, HasSubstr("frames      4 over"));
+}
+
+TEST(CommandLine, EvaluatesPredictionsAgainstTheSimulatorsTruth) {
+  const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "30", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  ASSERT_FALSE(json["objects"].empty());
+  for (const auto& object : json["objects"]) {
+    const auto& ahead = object["prediction"];
+    ASSERT_EQ(ahead.size(), 4u);
+    EXPECT_EQ(ahead[0]["ahead_s"], 0.5);
+    ASSERT_GT(ahead[0]["count"], 10) << object;
+    EXPECT_GE(ahead[0]["p95_m"], ahead[0]["median_m"]) << object;
+    EXPECT_LE(ahead[0]["median_m"], ahead[1]["median_m"]) << object;
+  }
+  const Finished noisy =
+      Clearway({"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
+  const auto with_noise = nlohmann::json::parse(noisy.out);
+  EXPECT_GT(with_noise["objects"][0]["prediction"][0]["median_m"],
+            json["objects"][0]["prediction"][0]["median_m"]);
+  EXPECT_THAT(Clearway({"evaluate", "sim:small", "--frames", "3"}).out, HasSubstr("-"));
+}
+
+TEST(CommandLine, EvaluatesOnlyWhatTellsTheTruth) {
+  const TemporaryFolder folder;
+  const Finished dut = Clearway({"evaluate", folder / "drive.cwr"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("drive.cwr: does not tell what really happened"));
 }
 
 TEST(CommandLine, NeverReplacesARecordingUnasked) {

@@ -12,7 +12,7 @@
 #include "clearway/report/top_view.h"
 #include "clearway/sim/world.h"
 
-namespace clearway::demo {
+namespace clearway {
 
 // A box of an object at one time: B at its centre, x along its length.
 struct TrueBox {
@@ -43,4 +43,4 @@ std::optional<TrueBox> BoxOf(const Truth& truth, ObjectId id, Time t);
 // The outlines from above of the boxes at that time, for a picture.
 std::vector<TopViewOutline> OutlinesAt(const Truth& truth, Time t);
 
-}  // namespace clearway::demo
+}  // namespace clearway

@@ -1,10 +1,10 @@
-#include "demo/truth.h"
+#include "clearway/report/truth.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-namespace clearway::demo {
+namespace clearway {
 namespace {
 
 // Boxes of one object, by time.
@@ -96,4 +96,4 @@ std::vector<TopViewOutline> OutlinesAt(const Truth& truth, Time t) {
   return outlines;
 }
 
-}  // namespace clearway::demo
+}  // namespace clearway

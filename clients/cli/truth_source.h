@@ -1,0 +1,22 @@
+// Frames together with what really happened.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "clearway/report/truth.h"
+#include "cli/open_source.h"
+
+namespace clearway::cli {
+
+struct TrueSource {
+  FrameSource frames;
+  Truth truth;
+  std::map<ObjectId, std::string> names;  // what kinds of objects they are
+};
+
+// A LiDAR folder, whose recorded boxes are the truth, or "sim:<scenario>". INVALID_ARGUMENT for
+// what tells no truth; else errors as the readers'.
+absl::StatusOr<TrueSource> OpenTrueSource(const std::string& spec, const SourceFlags& flags);
+
+}  // namespace clearway::cli

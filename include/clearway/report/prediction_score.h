@@ -1,0 +1,43 @@
+// How far predicted objects are from where they really come.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "clearway/report/truth.h"
+#include "clearway/scene/scene_snapshot.h"
+
+namespace clearway {
+
+// Distances in metres, one for each version in which the object was seen and whose truth reaches so
+// far ahead.
+struct PredictionErrors {
+  Duration ahead;
+  std::vector<double> errors_m;  // ascending
+
+  // The error that this share (0 to 1) of the predictions does not exceed; NaN without any.
+  double Quantile(double share) const;
+  double Median() const { return Quantile(0.5); }
+};
+
+// Collects prediction errors over the versions of a scene. An error is the distance between the
+// middle of an object's true box at t_k + ahead and that of its true box at t_k, moved as the scene
+// moves the object meanwhile: what the map gets wrong about the object's shape does not count. One
+// thread.
+class PredictionScore {
+ public:
+  PredictionScore(Truth truth, std::vector<Duration> ahead);
+
+  // The version after a frame. Objects count whose newest pose is of that frame and not bridged.
+  void Add(const SceneSnapshot& scene);
+
+  // By object, in the order of `ahead`.
+  std::map<ObjectId, std::vector<PredictionErrors>> Errors() const;
+
+ private:
+  Truth truth_;
+  std::vector<Duration> ahead_;
+  std::map<ObjectId, std::vector<std::vector<double>>> errors_m_;
+};
+
+}  // namespace clearway
