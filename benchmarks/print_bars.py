@@ -58,6 +58,9 @@ AT_MOST = {
     "closed_loop_collisions": 0,
     "closed_loop_static_collisions": 0,
     "drive_touching": 0,
+    "prediction_van_1s_m": 0.5,
+    "prediction_cyclist_1s_m": 0.4,
+    "prediction_parked_1s_m": 0.15,
 }
 
 
