@@ -8,6 +8,7 @@
 #include "clearway/client/remote_planner.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/collision/scene_checker.h"
+#include "planning/solved_tasks.h"
 #include "support/test_server.h"
 
 namespace clearway {
@@ -17,8 +18,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing_support::TestServer;
 
-Robot Disc() { return Robot::SingleShape("disc", Cylinder{0.3, 1}); }
-
 GivenObject Post(ObjectId id, double x_m, double y_m) {
   GivenObject post;
   post.id = id;
@@ -27,17 +26,10 @@ GivenObject Post(ObjectId id, double x_m, double y_m) {
   return post;
 }
 
-// A disc across a place of 10 m.
-PlanTask AcrossThePlace() {
-  PlanTask task;
-  task.space = PlaneSpace{.turns = false};
-  task.area_W = {{-5, -5, 0}, {5, 5, 0}};
-  task.max_speed_mps = 1;
-  task.start = {-4, 0};
-  task.goal = {4, 0};
+// The server's scene is of the beginning of time.
+PlanTask AcrossTheServersPlace() {
+  PlanTask task = AcrossThePlace();
   task.start_time = Time() + seconds(1);
-  task.time_limit = seconds(30);
-  task.options.check.unknown = UnknownPolicy::kFree;
   return task;
 }
 
@@ -53,10 +45,11 @@ class PlannerTest : public testing::Test {
   // The first plan.
   Plan AnyPlan() {
     Plan first;
-    const auto outcome = planner_->Plan(AcrossThePlace(), seconds(10), [&](const Plan& plan) {
-      first = plan;
-      return false;
-    });
+    const auto outcome =
+        planner_->Plan(AcrossTheServersPlace(), seconds(10), [&](const Plan& plan) {
+          first = plan;
+          return false;
+        });
     EXPECT_TRUE(outcome.ok()) << outcome.status();
     return first;
   }
@@ -68,15 +61,16 @@ class PlannerTest : public testing::Test {
 
 TEST_F(PlannerTest, PlansComeAsTheyAreFoundAndAreProvedAgainByTheServerAndHere) {
   std::vector<Plan> plans;
-  const auto outcome = planner_->Plan(AcrossThePlace(), milliseconds(300), [&](const Plan& plan) {
-    plans.push_back(plan);
-    return true;
-  });
+  const auto outcome =
+      planner_->Plan(AcrossTheServersPlace(), milliseconds(300), [&](const Plan& plan) {
+        plans.push_back(plan);
+        return true;
+      });
   ASSERT_TRUE(outcome.ok()) << outcome.status();
   EXPECT_EQ(outcome->status, PlanStatus::kFound);
   EXPECT_EQ(outcome->version, server_.Newest()->version);
   ASSERT_FALSE(plans.empty());
-  const MotionOptions options = AcrossThePlace().options;
+  const MotionOptions options = AcrossTheServersPlace().options;
   const SceneChecker here(server_.Newest(), Disc());
   const auto there = RemoteChecker::Pin(connection_, Disc());
   ASSERT_TRUE(there.ok());
@@ -90,13 +84,13 @@ TEST_F(PlannerTest, PlansComeAsTheyAreFoundAndAreProvedAgainByTheServerAndHere) 
       EXPECT_EQ(proof->answers[0].status, SpaceStatus::kFree);
     }
   }
-  EXPECT_LT(ToSeconds(plans.back().times.back() - AcrossThePlace().start_time), 9);
+  EXPECT_LT(ToSeconds(plans.back().times.back() - AcrossTheServersPlace().start_time), 9);
 }
 
 TEST_F(PlannerTest, EndsWhenAPlanIsGoodEnough) {
   int plans = 0;
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcome = planner_->Plan(AcrossThePlace(), seconds(50), [&](const Plan&) {
+  const auto outcome = planner_->Plan(AcrossTheServersPlace(), seconds(50), [&](const Plan&) {
     ++plans;
     return false;
   });
@@ -108,7 +102,7 @@ TEST_F(PlannerTest, EndsWhenAPlanIsGoodEnough) {
 }
 
 TEST_F(PlannerTest, SaysWhatBlocksTheGoal) {
-  PlanTask task = AcrossThePlace();
+  PlanTask task = AcrossTheServersPlace();
   task.goal = {0, 0.3};
   const auto outcome = planner_->Plan(task, milliseconds(50), [](const Plan&) { return true; });
   ASSERT_TRUE(outcome.ok()) << outcome.status();
@@ -139,11 +133,11 @@ TEST_F(PlannerTest, AWatchTellsOfPlansThatBreakAndMend) {
   std::atomic<int> told = 0;
   std::vector<RemotePlanner::News> news;
   std::thread watcher([&] {
-    const auto status =
-        planner_->Watch(motions, AcrossThePlace().options, [&](const RemotePlanner::News& n) {
-          news.push_back(n);
-          return ++told < 3;
-        });
+    const auto status = planner_->Watch(motions, AcrossTheServersPlace().options,
+                                        [&](const RemotePlanner::News& n) {
+                                          news.push_back(n);
+                                          return ++told < 3;
+                                        });
     EXPECT_TRUE(status.ok()) << status;
   });
   const SceneClient client(connection_);
@@ -168,7 +162,7 @@ TEST_F(PlannerTest, AWatchTellsOfPlansThatBreakAndMend) {
 
 // That nothing was found until then says nothing.
 TEST_F(PlannerTest, AServerThatDrainsDoesNotSayThatThereIsNoPlan) {
-  PlanTask task = AcrossThePlace();
+  PlanTask task = AcrossTheServersPlace();
   GivenObject wall = Post(2, 0, 0);
   wall.shape = Box{{0.2, 12, 2}};
   ASSERT_TRUE(SceneClient(connection_).AddObjects(std::vector{wall}).ok());
@@ -193,14 +187,14 @@ TEST_F(PlannerTest, NoMorePlansAtOnceThanTheLimit) {
   ASSERT_TRUE(planner.ok());
   const auto good = [](const Plan&) { return false; };
   absl::Status inner;
-  const auto outer = (*planner)->Plan(AcrossThePlace(), seconds(20), [&](const Plan&) {
-    inner = (*planner)->Plan(AcrossThePlace(), seconds(1), good).status();
+  const auto outer = (*planner)->Plan(AcrossTheServersPlace(), seconds(20), [&](const Plan&) {
+    inner = (*planner)->Plan(AcrossTheServersPlace(), seconds(1), good).status();
     return false;
   });
   EXPECT_TRUE(outer.ok()) << outer.status();
   EXPECT_EQ(inner.code(), absl::StatusCode::kResourceExhausted) << inner;
   while (server.core().plans > 0) std::this_thread::sleep_for(milliseconds(1));
-  const auto too_long = (*planner)->Plan(AcrossThePlace(), seconds(31), good);
+  const auto too_long = (*planner)->Plan(AcrossTheServersPlace(), seconds(31), good);
   EXPECT_EQ(too_long.status().code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(too_long.status().message().rfind("budget_s", 0), 0u);
 }
