@@ -5,6 +5,7 @@
 
 #include "absl/container/inlined_vector.h"
 #include "collision/advance.h"
+#include "collision/prepared_mesh.h"
 
 namespace clearway {
 namespace {
@@ -161,6 +162,9 @@ bool CenterMasks::Perhaps(const Eigen::Vector3d& center_W) const {
   }
   const Eigen::Vector3d middle_W = center_W - 0.5 * way_W;
   const double reach_m = margin_m + 0.5 * way_W.norm() + kRounding_m;
+  if (const PreparedMesh* mesh = shape_W.AsMesh()) {
+    return mesh->SideOf(shape_W.ToG(middle_W), reach_m).value_or(true);
+  }
   return shape_W.DistanceToBall(middle_W, 0, reach_m) <= reach_m;
 }
 

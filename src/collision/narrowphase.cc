@@ -135,8 +135,7 @@ bool PlacedShape::Holds(const Eigen::Vector3d& center_F, double radius_m) const 
   const Eigen::Vector3d center_G = ToG(center_F);
   const Shape& shape = geometry_->shape();
   if (const PreparedMesh* mesh = geometry_->prepared()) {
-    const DistanceGrid::Surroundings around = mesh->Around(center_G);
-    return around.inside && around.same_m > radius_m;
+    return mesh->SideOf(center_G, radius_m).value_or(false);
   }
   if (!std::holds_alternative<ConvexPolytope>(shape)) return DepthIn(shape, center_G) >= radius_m;
   constexpr double kToCorner = 1.7320508075688774;

@@ -32,6 +32,15 @@ double PreparedMesh::DistanceTo(const Eigen::Vector3d& p_G, double up_to_m) cons
   return tree_.NearestTo(p_G, std::min(up_to_m, around.far_m + kRounding_m)).distance_m;
 }
 
+// Of a closed mesh sides change at the surface alone.
+std::optional<bool> PreparedMesh::SideOf(const Eigen::Vector3d& center_G, double radius_m) const {
+  const DistanceGrid::Surroundings around = grid_.At(center_G);
+  if (around.same_m > radius_m + kRounding_m) return around.inside;
+  const double reach_m = radius_m + kRounding_m;
+  if (!closed() || tree_.NearestTo(center_G, reach_m).distance_m <= reach_m) return std::nullopt;
+  return Contains(center_G);
+}
+
 // The surface is as near to the box as to its centre, less what the box reaches towards it.
 double PreparedMesh::DistanceTo(const OrientedBox& box, double up_to_m) const {
   const DistanceGrid::Surroundings around = grid_.At(box.center_G);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "clearway/geometry/shape.h"
 #include "collision/distance_grid.h"
@@ -30,6 +31,9 @@ class PreparedMesh {
   double DistanceTo(const Eigen::Vector3d& p_G, double up_to_m) const;
   // The box counts as inside if its centre is.
   double DistanceTo(const OrientedBox& box, double up_to_m) const;
+  // Whether all of the ball is inside (true) or outside; nothing if it lies on both sides or, of an
+  // open mesh, if that is not known.
+  std::optional<bool> SideOf(const Eigen::Vector3d& center_G, double radius_m) const;
 
   // The smallest box around the mesh, turned into a frame F. Its origin is G's.
   Aabb BoxTurned(const Eigen::Matrix3d& R_F_G) const { return extreme_.BoxTurned(R_F_G); }

@@ -104,6 +104,25 @@ Count CountAtCenters(const VoxelMap& map, const std::vector<Aabb>& known_free,
   return count;
 }
 
+// Whether the centre of a shape may come to lie in an unknown voxel.
+bool MayBeCenteredInUnknown(const VoxelMap& map, const std::vector<Aabb>& known_free,
+                            const std::vector<Sweep>& sweeps) {
+  for (const Sweep& sweep : sweeps) {
+    const Eigen::Vector3d center = sweep.shape_F.Center_F();
+    Aabb centers{center, center};
+    centers.Extend(center + sweep.way_F);
+    KeyRange keys;
+    if (!KeysTouching(map.grid(), centers.Padded(sweep.margin_m), keys)) return true;
+    const bool any =
+        AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
+                 [&](BlockKey key, const VoxelBlock* block) {
+                   return RangeInBlock(key, keys).Of(UnknownIn(map, key, block, known_free)).Any();
+                 });
+    if (any) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 double UnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_free_W,
@@ -127,7 +146,8 @@ double MostUnknownShareOf(const VoxelMap& map_W, const std::vector<Aabb>& known_
                  unknown += CountOfBoth(masks.perhaps, unknown_here);
                  known += masks.surely.Count() - CountOfBoth(masks.surely, unknown_here);
                });
-  return known == 0 ? 1 : static_cast<double>(unknown) / static_cast<double>(unknown + known);
+  if (known > 0) return static_cast<double>(unknown) / static_cast<double>(unknown + known);
+  return unknown > 0 || MayBeCenteredInUnknown(map_W, known_free_W, sweeps_W) ? 1 : 0;
 }
 
 }  // namespace clearway

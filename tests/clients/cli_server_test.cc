@@ -1,11 +1,14 @@
 // The tool against a real server that has seen a small simulated drive.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "clients/server_process.h"
@@ -107,6 +110,29 @@ TEST_F(CliServer, APlanIsAPathInTime) {
   EXPECT_EQ(path.front()["t_s"], 0);
   EXPECT_EQ(path.front()["configuration"], json({-5.0, 0.0}));
   EXPECT_EQ(path.back()["t_s"], arrival_s);
+}
+
+// Each plan begins at a stamp that frames may leave behind before it is asked for.
+TEST_F(CliServer, PlansWhileFramesArrive) {
+  const TemporaryFolder folder;
+  const std::string file = folder.Write("beside.json", R"({"name": "beside", "robot": "sphere:0.3",
+    "space": {"type": "flight", "turns": false}, "area_m": [[90, 90, 0], [99, 99, 2]],
+    "max_speed_mps": 1, "start": [91, 95, 1], "goal": [98, 95, 1], "time_limit_s": 60,
+    "unknown": "free", "objects": [{"id": 1001, "velocity_mps": [0, 0.1, 0],
+      "shape": {"type": "sphere", "radius_m": 1}, "pose": {"position_m": [95, 95, 1]}}]})");
+  const auto frames = std::async(std::launch::async, [this] {
+    for (int frame = 0; frame < 20; ++frame) {
+      const std::string index = std::to_string(frame);
+      Ask({"replay", "sim:small", "--from", index, "--to", index, "--quiet"});
+    }
+  });
+  std::set<std::uint64_t> stamps_ns;
+  while (frames.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    const Finished dut = Clearway({"plan", file, "--first", "--budget", "10", "--json"});
+    ASSERT_EQ(dut.exit_code, 0) << dut.err;
+    stamps_ns.insert(json::parse(dut.out)["path"][0]["stamp_ns"].get<std::uint64_t>());
+  }
+  EXPECT_GE(stamps_ns.size(), 3u);
 }
 
 TEST_F(CliServer, AnInterruptedPlanTakesItsObjectsAway) {

@@ -109,7 +109,7 @@ TEST(MotionCheck, NothingCalledFreeIsInContact) {
         SpaceStatus::kOccupied, SpaceStatus::kOutOfBounds}) {
     EXPECT_GT(counts.Of(status), counts.motions / 20) << ToString(status);
   }
-  EXPECT_LE(100 * counts.unresolved, counts.motions);
+  EXPECT_LE(1000 * counts.unresolved, counts.motions);
   EXPECT_GT(counts.with_voxel, counts.motions / 5);
 }
 

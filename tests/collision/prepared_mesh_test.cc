@@ -101,6 +101,24 @@ TEST_P(PreparedMeshTest, BoxesAroundItHoldItsCornersAndNoMore) {
   }
 }
 
+TEST_P(PreparedMeshTest, TheSideOfABallIsThatOfAllItsPoints) {
+  Random random(7);
+  const Shape shape = TriangleMesh{Test().mesh};
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d p = PointNear(Test(), random);
+    const double surface_m = SlowSurfaceDistance(*Test().mesh, p);
+    const double radius_m = random.Uniform(0, 2) * surface_m;
+    const std::optional<bool> side = dut_.SideOf(p, radius_m);
+    if (dut_.closed() && std::abs(surface_m - radius_m) > kUnsure_m) {
+      EXPECT_EQ(side.has_value(), radius_m < surface_m) << p.transpose();
+    }
+    for (const double part : {0.0, 0.5, 0.999}) {
+      const Eigen::Vector3d other = p + part * radius_m * random.UnitVector();
+      EXPECT_EQ(Contains(shape, other), side.value_or(Contains(shape, other))) << p.transpose();
+    }
+  }
+}
+
 TEST_P(PreparedMeshTest, WhatIsCertainRoundAPointIsTrue) {
   Random random(3);
   const Shape shape = TriangleMesh{Test().mesh};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "collision/test_meshes.h"
 #include "support/random.h"
 
 namespace clearway {
@@ -152,6 +153,34 @@ TEST(MostUnknownShare, HoldsWhereverTheShapesAre) {
   }
   EXPECT_GT(useful, 40);
   EXPECT_GT(tight, 100);
+}
+
+// No centre of a voxel lies within its margin, while the voxel of its own centre is known.
+TEST(MostUnknownShare, OfASmallRobotIsThatOfTheVoxelsThatItsCentreMayBeIn) {
+  VoxelMap map(0.1);
+  map.Set({0, 0, 0}, -100);
+  const ShapeGeometry ball{Sphere{0.01}};
+  const auto most_from = [&](double x, double way_x, const std::vector<Aabb>& known_free) {
+    const PlacedShape there(ball, Pose::Translation(x, 0.02, 0.02));
+    return MostUnknownShareOf(map, known_free, {{there, {way_x, 0, 0}, 0.005}}, kNever);
+  };
+  EXPECT_EQ(most_from(0.02, 0, {}), 0);
+  EXPECT_EQ(most_from(0.02, 0.07, {}), 0);
+  EXPECT_EQ(most_from(0.02, 0.08, {}), 1);
+  EXPECT_EQ(most_from(0.02, 0.08, {{{0.1, 0, 0}, {0.2, 0.1, 0.1}}}), 0);
+}
+
+// Also close to its surface, where its grid of distances does not tell.
+TEST(MostUnknownShare, OfAMeshThatStandsIsItsShare) {
+  Random random(3);
+  const Mesh ball = BallMesh(6, 9, [](const Eigen::Vector3d&) { return 0.5; });
+  const ShapeGeometry geometry{TriangleMesh{std::make_shared<const Mesh>(ball)}};
+  for (int i = 0; i < 10; ++i) {
+    const VoxelMap map = MapWithGaps(random, 0.7);
+    const PlacedShape placed(geometry, random.AnyPose(1));
+    const double dut = MostUnknownShareOf(map, {}, {{placed, Eigen::Vector3d::Zero(), 0}}, kNever);
+    EXPECT_EQ(dut, UnknownShareOf(map, {}, {&placed}, kNever)) << i;
+  }
 }
 
 TEST(UnknownShare, EndsWhenNobodyWaits) {
