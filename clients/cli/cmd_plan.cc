@@ -205,7 +205,7 @@ void AddPlan(Cli& cli) {
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
   AddServerFlags(command, &flags->server);
   command->add_option("file", flags->file, "what to plan, a scenario file")->required();
-  command->add_option("--budget", flags->budget_s, "seconds to think (1)")
+  command->add_option("--budget", flags->budget_s, "seconds to think (1); servers limit it")
       ->check(Between(0.001, 3600));
   command->add_flag("--first", flags->first, "end with the first plan");
   command->add_flag("--json", flags->json, "print JSON");

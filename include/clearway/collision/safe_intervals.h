@@ -24,7 +24,9 @@ struct SafeIntervalOptions {
 
 // For each configuration (one pose T_W_L for each of the robot's links, one configuration after
 // the other) the intervals within the window in which the robot, at rest there, is free at every
-// moment, by proof (StateChecker::CheckMotions): ascending, apart from each other.
+// moment, by proof (StateChecker::CheckMotions): ascending, apart from each other. Where a proof
+// stays unresolved (a part that is an open mesh, within whose hull something lies) an interval
+// ends, and what is found may be no longer than a look.
 //
 // Works on any checker; a remote one is asked about all configurations at once, in two calls for
 // each interval of the one that has the most, or more where nothing is free for long or of large

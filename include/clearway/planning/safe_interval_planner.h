@@ -32,8 +32,9 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 // promising edge first as Gammell et al.'s BIT*, 2015.)
 //
 // A first path is looked for greedily; then earlier ones, with more and more places, of which only
-// those are kept that an earlier arrival can visit. A latest time far away costs nothing. A robot
-// is at rest or at full speed: it can stop and start at once.
+// those are kept that an earlier arrival can visit. A latest time that leaves little to spare makes
+// the first path harder to find, not easier: there is none to be improved until one is in time. A
+// robot is at rest or at full speed: it can stop and start at once.
 //
 // Over the space information of MakeSpaceInformation motions are proved and waits are proved safe
 // intervals. Over any other the motion validator is asked; it must refuse motions backwards in
@@ -54,10 +55,11 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   unsigned int GetFirstBatch() const { return first_batch_; }
 
   // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and the
-  // latest time leaves none for another; TIMEOUT if `until` held before a path was found; else
-  // EXACT_SOLUTION, with the earliest arrival found when `until` held, or with one that no path can
-  // beat or that is good enough for the problem's objective (its cost threshold). Gives the problem
-  // the objective EarliestArrivalObjective if it has none.
+  // latest time leaves none for another, or if the space is so wide (more than some 1e5 times what
+  // can be reached in time) that no place within reach is found; TIMEOUT if `until` held before a
+  // path was found; else EXACT_SOLUTION, with the earliest arrival found when `until` held, or with
+  // one that no path can beat or that is good enough for the problem's objective (its cost
+  // threshold). Gives the problem the objective EarliestArrivalObjective if it has none.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
   // Another problem than the one before is begun anew.
