@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/prepared_mesh.h"
 
 namespace clearway {

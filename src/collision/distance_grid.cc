@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 
 namespace clearway {
 namespace {

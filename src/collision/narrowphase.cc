@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "clearway/geometry/distance.h"
 #include "clearway/geometry/hull.h"
 #include "collision/body_contact.h"
-#include "collision/closed_form.h"
 #include "collision/contact_if_thrown.h"
 #include "collision/fcl_bodies.h"
 #include "collision/prepared_mesh.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 
 namespace clearway {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "clearway/geometry/aabb.h"
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 
 namespace clearway {
 namespace {

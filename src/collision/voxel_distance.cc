@@ -9,7 +9,7 @@
 #include <queue>
 #include <tuple>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/cube_bounds.h"
 #include "collision/voxel_search.h"
 

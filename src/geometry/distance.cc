@@ -1,4 +1,4 @@
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 
 #include <algorithm>
 #include <array>
@@ -154,6 +154,20 @@ double PointShapeDistance(const Eigen::Vector3d& p, const Shape& shape) {
                         [&](const auto& with_mesh) {
                           return Contains(shape, p) ? 0.0 : PointMeshDistance(p, *with_mesh.mesh);
                         },
+                    },
+                    shape);
+}
+
+double SurfaceDistance(const Eigen::Vector3d& p, const Shape& shape) {
+  const auto of_mesh = [&](const auto& with_mesh) { return PointMeshDistance(p, *with_mesh.mesh); };
+  const auto of_solid = [&](const auto&) {
+    const double depth_m = DepthIn(shape, p);
+    return depth_m > 0 ? depth_m : PointShapeDistance(p, shape);
+  };
+  return std::visit(Overloaded{
+                        [&](const ConvexPolytope& polytope) { return of_mesh(polytope); },
+                        [&](const TriangleMesh& mesh) { return of_mesh(mesh); },
+                        of_solid,
                     },
                     shape);
 }

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/slow_mesh.h"
 #include "collision/test_meshes.h"
 #include "support/random.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/random_world.h"
 
 namespace clearway {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clearway/geometry/distance.h"
 #include "collision/advance.h"
-#include "collision/closed_form.h"
 #include "collision/random_world.h"
 
 namespace clearway {

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <vector>
 
+#include "clearway/geometry/distance.h"
 #include "collision/brute_geometry.h"
-#include "collision/closed_form.h"
 #include "collision/cube_contact.h"
 #include "collision/slow_mesh.h"
 #include "collision/test_meshes.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/test_meshes.h"
 #include "support/random.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "support/random.h"
 
 namespace clearway {

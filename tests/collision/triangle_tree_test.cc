@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision/closed_form.h"
+#include "clearway/geometry/distance.h"
 #include "collision/test_meshes.h"
 #include "collision/winding_tree.h"
 #include "support/random.h"

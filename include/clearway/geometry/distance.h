@@ -1,4 +1,5 @@
-// Distances that have a closed form. All are in metres and 0 where the sets meet.
+// Distances that have a closed form. All are in metres and, but for those from surfaces, 0 where
+// the sets meet. Any thread may ask.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,5 +31,8 @@ double DepthIn(const Shape& shape, const Eigen::Vector3d& p_G);
 
 // From a point to a shape, both in G; shapes are solid in the sense of Contains.
 double PointShapeDistance(const Eigen::Vector3d& p_G, const Shape& shape);
+
+// From a point, inside or outside, to the shape's surface. Meshes are asked triangle by triangle.
+double SurfaceDistance(const Eigen::Vector3d& p_G, const Shape& shape);
 
 }  // namespace clearway
