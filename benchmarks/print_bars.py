@@ -28,6 +28,12 @@ AT_LEAST = {
     "plan_success_fraction": 0.99,
     "closed_loop_goal_fraction": 0.98,
     "drive_start_frames": 20,
+    "prediction_solids_1s_f": 0.9,
+    "reconstruction_completeness": 0.98,
+    "reconstruction_occupied_precision": 0.97,
+    "reconstruction_occupied_recall": 0.97,
+    "reconstruction_free_precision": 0.995,
+    "reconstruction_free_recall": 0.995,
     # So many that a tenth of them can be told from none.
     "closed_loop_turning_collisions_without": 50,
     "closed_loop_noise_collisions_without": 50,
@@ -61,6 +67,8 @@ AT_MOST = {
     "prediction_van_1s_m": 0.5,
     "prediction_cyclist_1s_m": 0.4,
     "prediction_parked_1s_m": 0.15,
+    "reconstruction_accuracy_voxels": 0.5,
+    "reconstruction_residual_voxels": 0,
 }
 
 

@@ -50,6 +50,11 @@ absl::Status Parse(const std::string& text, SolidMode& value) {
   value = text == "voxels" ? SolidMode::kVoxels : SolidMode::kConvexHull;
   return absl::OkStatus();
 }
+absl::Status Parse(const std::string& text, MotionModel& value) {
+  if (text != "last" && text != "track") return Bad(text, "last or track");
+  value = text == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
+  return absl::OkStatus();
+}
 absl::Status Parse(const std::string& text, std::vector<Aabb>& boxes) {
   std::vector<double> numbers;
   for (const auto& part : absl::StrSplit(text, absl::ByAnyChar(" ,;[]"), absl::SkipEmpty())) {
@@ -85,6 +90,9 @@ std::string Print(std::uint64_t value) { return std::to_string(value); }
 std::string Print(Duration value) { return Print(ToSeconds(value)); }
 std::string Print(SolidMode value) {
   return Print(std::string(value == SolidMode::kVoxels ? "voxels" : "convex_hull"));
+}
+std::string Print(MotionModel value) {
+  return Print(std::string(value == MotionModel::kTrack ? "track" : "last"));
 }
 std::string Print(const Aabb& box) {
   std::vector<std::string> numbers;
@@ -149,6 +157,8 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.solid", scene.solid, "what an object fills: convex_hull or voxels"),
       CLEARWAY_SETTING("scene.clear_objects_by_rays", scene.clear_objects_by_rays,
                        "whether rays clear voxels of objects"),
+      CLEARWAY_SETTING("scene.motion", scene.motion,
+                       "what is extrapolated: the last motion, or one that fits the track"),
       CLEARWAY_SETTING("scene.horizon_s", scene.horizon, "how long motions are extrapolated"),
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,
                        "objects unseen for longer are dropped"),

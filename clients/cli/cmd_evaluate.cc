@@ -1,114 +1,68 @@
-// clearway evaluate: what a scene foresaw, against what really happened.
+// clearway evaluate: what a scene made of its frames and foresaw, against the truth.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
-#include "absl/strings/str_cat.h"
-#include "clearway/report/prediction_score.h"
-#include "clearway/report/table.h"
 #include "clearway/scene/scene_builder.h"
 #include "cli/commands.h"
-#include "cli/json.h"
+#include "cli/evaluation.h"
 #include "cli/progress.h"
-#include "cli/text.h"
-#include "cli/truth_source.h"
 
 namespace clearway::cli {
 namespace {
 
 constexpr char kExamples[] =
     "  clearway evaluate sim:street --noise table1\n"
-    "  clearway evaluate kitti0000_fov --poses icp --rest-distance 0.6 --json";
-
-// How far ahead.
-constexpr std::array kAhead = {std::chrono::milliseconds(500), std::chrono::milliseconds(1000),
-                               std::chrono::milliseconds(2000), std::chrono::milliseconds(3000)};
-constexpr double kMost = 0.95;  // the share of predictions whose error is told beside the median
+    "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
 
 struct Flags {
   std::string spec;
   SourceFlags source;
+  std::string motion = "last";
   double rest_distance_m = 0;
   double max_range_m = 50;
   bool json = false;
 };
 
-using Errors = std::map<ObjectId, std::vector<PredictionErrors>>;
-
 SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = source.frames.resolution_m;
   params.rays.max_range_m = flags.max_range_m;
+  params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
   params.rest_distance_m = flags.rest_distance_m;
   return params;
 }
 
-absl::StatusOr<Errors> Evaluate(const TrueSource& source, const SceneParams& params,
-                                const Terminal& terminal) {
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams& params,
+                                    const Terminal& terminal) {
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
   PredictionScore score(source.truth, {kAhead.begin(), kAhead.end()});
+  std::optional<SurfaceJudge> judge;  // where the true surfaces are known
+  if (source.simulation)
+    judge.emplace(*source.simulation, std::vector<Duration>(kAhead.begin(), kAhead.end()));
   ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
   std::uint64_t points = 0;
   for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
     const auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
     if (const auto report = builder.Apply(*frame); !report.ok()) return report.status();
-    score.Add(*builder.Publish());
+    const ScenePtr scene = builder.Publish();
+    score.Add(*scene);
+    if (judge) judge->Add(k, *frame, *scene);
     points += frame->points_S.size();
     progress.Update(k + 1, points);
   }
   progress.Finish();
-  return score.Errors();
-}
-
-std::string NameOf(const TrueSource& source, ObjectId id) {
-  const auto name = source.names.find(id);
-  return name == source.names.end() ? "" : name->second;
-}
-
-void PrintText(std::ostream& out, const TrueSource& source, const Errors& errors) {
-  out << source.frames.description << "\n\n"
-      << "How far from its true place each object is predicted, in metres: median, and what 95 % "
-         "of "
-         "the\npredictions do not exceed.\n\n";
-  std::vector<std::string> header = {"id", "what", "predictions"};
-  for (const Duration ahead : kAhead) {
-    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
-    header.push_back("95 %");
+  Evaluation found{score.Errors(), {}, {}, {}};
+  if (judge) {
+    found.fits = judge->Fits();
+    found.solids = judge->overlaps();
+    found.static_fit = judge->FitOfStatic(*builder.Publish());
   }
-  Table table(header);
-  const auto text = [](double error_m) { return std::isnan(error_m) ? "-" : Fixed(error_m, 2); };
-  for (const auto& [id, of_object] : errors) {
-    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id),
-                                    absl::StrCat(of_object[0].errors_m.size())};
-    for (const PredictionErrors& e : of_object) {
-      row.push_back(text(e.Median()));
-      row.push_back(text(e.Quantile(kMost)));
-    }
-    table.AddRow(row);
-  }
-  out << table.ToString();
-}
-
-Json AsJson(const TrueSource& source, const Errors& errors) {
-  Json json = {{"source", source.frames.description},
-               {"truth", source.truth.description},
-               {"frames", source.frames.frame_count},
-               {"objects", Json::array()}};
-  for (const auto& [id, of_object] : errors) {
-    Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", Json::array()}};
-    for (const PredictionErrors& e : of_object) {  // no number becomes null
-      object["prediction"].push_back({{"ahead_s", ToSeconds(e.ahead)},
-                                      {"count", e.errors_m.size()},
-                                      {"median_m", e.Median()},
-                                      {"p95_m", e.Quantile(kMost)}});
-    }
-    json["objects"].push_back(object);
-  }
-  return json;
+  return found;
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -116,13 +70,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!source.ok()) return source.status();
   const SceneParams params = ParamsOf(*source, flags);
   if (auto status = Validate(params); !status.ok()) return status;
-  const auto errors = Evaluate(*source, params, terminal);
-  if (!errors.ok()) return errors.status();
-  if (flags.json) {
-    Print(terminal.out, AsJson(*source, *errors));
-  } else {
-    PrintText(terminal.out, *source, *errors);
-  }
+  const auto found = Evaluate(*source, params, terminal);
+  if (!found.ok()) return found.status();
+  flags.json ? PrintJson(terminal.out, *source, *found) : PrintText(terminal.out, *source, *found);
   return absl::OkStatus();
 }
 
@@ -131,12 +81,15 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
 void AddEvaluate(Cli& cli) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
-      AddCommand(cli, "evaluate", "Compare what a scene foresees with what really happens",
+      AddCommand(cli, "evaluate", "Compare maps and predictions with what is really there",
                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
   command
       ->add_option("input", flags->spec,
                    "A folder of LiDAR scans with boxes, or sim:NAME: they know\nthe truth")
       ->required();
+  command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
+      ->check(CLI::IsMember({"last", "track"}))
+      ->capture_default_str();
   command
       ->add_option("--rest-distance", flags->rest_distance_m,
                    "As of clearway-server --scene-rest-distance-m")

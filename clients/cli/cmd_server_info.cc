@@ -59,6 +59,7 @@ Json ParamsJson(const SceneParams& p) {
           {"discretize", p.rays.discretize},
           {"solid", p.solid == SolidMode::kConvexHull ? "CONVEX_HULL" : "VOXELS"},
           {"clear_objects_by_rays", p.clear_objects_by_rays},
+          {"motion", p.motion == MotionModel::kTrack ? "TRACK" : "LAST_MOTION"},
           {"horizon_s", ToSeconds(p.horizon)},
           {"object_lifetime_s", ToSeconds(p.object_lifetime)},
           {"history_s", ToSeconds(p.history)},

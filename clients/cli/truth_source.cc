@@ -10,14 +10,14 @@ namespace {
 
 TrueSource OfSimulation(const Simulation& simulation) {
   const auto world = std::make_shared<const World>(simulation.world());
-  TrueSource source{simulation.Frames(), {}, {}};
+  TrueSource source{simulation.Frames(), {}, {}, simulation};
   source.truth = TruthOf(world, simulation.StampOf(simulation.frame_count() - 1));
   for (const ObjectId id : world->ObjectIds()) source.names[id] = world->FindObject(id)->name;
   return source;
 }
 
 TrueSource OfFolder(LidarFolder folder) {
-  TrueSource source{folder.frames, TruthOf(folder), {}};
+  TrueSource source{folder.frames, TruthOf(folder), {}, std::nullopt};
   for (const RecordedBox& box : folder.boxes) source.names[box.id] = box.type;
   return source;
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "clearway/report/truth.h"
+#include "clearway/sim/simulation.h"
 #include "cli/open_source.h"
 
 namespace clearway::cli {
@@ -13,6 +15,7 @@ struct TrueSource {
   FrameSource frames;
   Truth truth;
   std::map<ObjectId, std::string> names;  // what kinds of objects they are
+  std::optional<Simulation> simulation;   // that the frames are of, if they are of one
 };
 
 // A LiDAR folder, whose recorded boxes are the truth, or "sim:<scenario>". INVALID_ARGUMENT for

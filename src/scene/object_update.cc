@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clearway/map/ray_caster.h"
+#include "scene/track_motion.h"
 
 namespace clearway {
 namespace {
@@ -125,6 +126,11 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
     object.bridged = true;
   }
   const bool moved = clue.motion != nullptr || clue.pose != nullptr;
+  if (moved && params.motion == MotionModel::kTrack && object.history.size() > 1) {
+    const Aabb& box_O = object.solid->box_O;
+    object.velocity_O =
+        VelocityOfTrack(object.history, box_O.Empty() ? Eigen::Vector3d::Zero() : box_O.Center());
+  }
   if (moved && StayedWithin(object, params.rest_distance_m)) object.velocity_O = Twist{};
   return object;
 }

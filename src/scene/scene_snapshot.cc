@@ -88,6 +88,7 @@ void ContentHasher::Add(const SceneParams& params) {
   for (Duration duration : {params.horizon, params.object_lifetime, params.history}) {
     Add(std::int64_t{duration.count()});
   }
+  Add(static_cast<std::int64_t>(params.motion));
   Add(params.rest_distance_m);
   Add(params.keep_distance_m);
   Add(params.bounds_W);

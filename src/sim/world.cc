@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "clearway/geometry/distance.h"
 #include "sim/convex.h"
 
 namespace clearway {
@@ -17,6 +18,20 @@ Aabb Body::BoxB() const {
     box_B.Extend(Transformed(part.T_B_G, BoundingBox(part.shape)));
   }
   return box_B;
+}
+
+double SurfaceDistance(const Eigen::Vector3d& p_B, const Body& body) {
+  double outside_m = std::numeric_limits<double>::infinity(), inside_m = -1;
+  for (const BodyPart& part : body.parts) {
+    const Eigen::Vector3d p_G = Inverse(part.T_B_G) * p_B;
+    const double distance_m = SurfaceDistance(p_G, part.shape);
+    if (Contains(part.shape, p_G)) {
+      inside_m = std::max(inside_m, distance_m);
+    } else {
+      outside_m = std::min(outside_m, distance_m);
+    }
+  }
+  return inside_m >= 0 ? inside_m : outside_m;
 }
 
 std::vector<ObjectId> World::ObjectIds() const {

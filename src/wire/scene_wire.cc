@@ -68,6 +68,8 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_solid(params.solid == SolidMode::kVoxels ? v1::SOLID_MODE_VOXELS
                                                       : v1::SOLID_MODE_CONVEX_HULL);
   proto->set_clear_objects_by_rays(params.clear_objects_by_rays);
+  proto->set_motion(params.motion == MotionModel::kTrack ? v1::MOTION_MODEL_TRACK
+                                                         : v1::MOTION_MODEL_LAST_MOTION);
   proto->set_horizon_ns(params.horizon.count());
   proto->set_object_lifetime_ns(params.object_lifetime.count());
   proto->set_history_ns(params.history.count());
@@ -93,6 +95,9 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.solid =
       proto.solid() == v1::SOLID_MODE_VOXELS ? SolidMode::kVoxels : SolidMode::kConvexHull;
   params.clear_objects_by_rays = proto.clear_objects_by_rays();
+  read.Require(v1::MotionModel_IsValid(proto.motion()), "motion", "is not a known model");
+  params.motion =
+      proto.motion() == v1::MOTION_MODEL_TRACK ? MotionModel::kTrack : MotionModel::kLastMotion;
   params.horizon = Duration(proto.horizon_ns());
   params.object_lifetime = Duration(proto.object_lifetime_ns());
   params.history = Duration(proto.history_ns());

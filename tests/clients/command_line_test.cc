@@ -153,6 +153,26 @@ TEST(CommandLine, EvaluatesPredictionsAgainstTheSimulatorsTruth) {
   EXPECT_TRUE(too_short["median_m"].is_null());
 }
 
+TEST(CommandLine, EvaluatesMapsAgainstTheSimulatorsTruth) {
+  const Finished dut =
+      Clearway({"evaluate", "sim:small", "--frames", "30", "--motion", "track", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  for (const auto& object : json["objects"]) {
+    EXPECT_EQ(object["reconstruction"]["completeness"], 1) << object;
+    EXPECT_LT(object["reconstruction"]["accuracy_m"], 0.05) << object;
+    EXPECT_EQ(object["solids"][1]["ahead_s"], 1);
+  }
+  EXPECT_GT(json["solids"][1]["f_score"], 0.8);
+  EXPECT_EQ(json["static"]["residual_voxels"], 0);
+  EXPECT_EQ(json["static"]["free_precision"], 1);
+  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "3"});
+  for (const char* told : {"predictions", "covered", "F-scores", "precision", "nothing static"}) {
+    EXPECT_THAT(text.out, HasSubstr(told));
+  }
+  EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
+}
+
 TEST(CommandLine, EvaluatesOnlyWhatTellsTheTruth) {
   const TemporaryFolder folder;
   const Finished dut = Clearway({"evaluate", folder / "drive.cwr"});

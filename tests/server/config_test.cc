@@ -48,10 +48,11 @@ TEST(ServerConfig, TheFileCanComeFromTheEnvironment) {
 }
 
 TEST(ServerConfig, PrintedAsTomlItReadsBackTheSame) {
-  ServerConfig config = Read({"--listen", "unix:/tmp/a b\"c", "--scene-resolution-m", "0.1234567",
-                              "--limits-max-robots", "7", "--scene-solid", "voxels",
-                              "--scene-discretize", "true", "--scene-self-filter-m",
-                              "-1 -1 -1 1 1 1 2 2 2 3 3 3", "--scene-bounds-m", "-9,-9,-9,9,9,9"});
+  ServerConfig config =
+      Read({"--listen", "unix:/tmp/a b\"c", "--scene-resolution-m", "0.1234567",
+            "--limits-max-robots", "7", "--scene-solid", "voxels", "--scene-motion", "track",
+            "--scene-discretize", "true", "--scene-self-filter-m", "-1 -1 -1 1 1 1 2 2 2 3 3 3",
+            "--scene-bounds-m", "-9,-9,-9,9,9,9"});
   EXPECT_EQ(config.scene.self_filter_S.size(), 2u);
   const TemporaryFolder folder;
   const std::string file = folder.Write("c.toml", ToToml(config)).string();
@@ -106,6 +107,7 @@ TEST(ServerConfig, RefusesBadValuesNamingTheKey) {
       {{"--scene-clamp-min", "0.7"}, "scene."},
       {{"--scene-horizon-s", "-1"}, "scene.horizon_s"},
       {{"--scene-solid", "jelly"}, "scene.solid"},
+      {{"--scene-motion", "first"}, "scene.motion"},
       {{"--scene-bounds-m", "1 2 3"}, "scene.bounds_m"},
       {{"--threads", "-1"}, "threads"},
       {{"--writer-niceness", "20"}, "writer_niceness"},

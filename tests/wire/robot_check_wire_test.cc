@@ -191,6 +191,7 @@ TEST(SceneWire, ParamsComeBack) {
   params.rays = {12, true};
   params.solid = SolidMode::kVoxels;
   params.clear_objects_by_rays = true;
+  params.motion = MotionModel::kTrack;
   params.horizon = std::chrono::seconds(1);
   params.object_lifetime = std::chrono::seconds(2);
   params.history = std::chrono::seconds(3);

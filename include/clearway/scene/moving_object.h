@@ -60,8 +60,8 @@ struct MovingObject {
   // How it goes on after them: of their last interval, as they were stated (see WithFuture). Zero
   // without a future.
   Twist future_velocity_O;
-  // Constant body-frame velocity of the last motion (rad/s, m/s at O's origin); none while no
-  // motion is known.
+  // Constant body-frame velocity of its motion (rad/s, m/s at O's origin), of the last one or of
+  // its track (MotionModel); none while no motion is known.
   std::optional<Twist> velocity_O;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;
@@ -110,7 +110,7 @@ struct PredictedPose {
   std::optional<double> beyond_horizon_radius_m;
 };
 
-// T_W_O(t) (II-E): after t_k the last motion continued as a constant screw, before it the history
+// T_W_O(t) (II-E): after t_k its motion continued as a constant screw, before it the history
 // interpolated, before the history its first pose. An object at rest stays at its last pose for
 // ever. Where a future is stated, it is interpolated likewise, then its last interval continued,
 // and the horizon counts from its end.

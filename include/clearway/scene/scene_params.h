@@ -14,6 +14,12 @@ namespace clearway {
 // What of an object counts as occupied.
 enum class SolidMode { kConvexHull = 0, kVoxels = 1 };
 
+// How an object is taken to go on after its newest pose.
+enum class MotionModel {
+  kLastMotion = 0,  // as between its last two poses (II-E)
+  kTrack = 1,       // as its poses of about the last second tell, whose noise evens out
+};
+
 // How long an object has to stay where it is before it counts as at rest. Longer than the history,
 // it never does.
 inline constexpr Duration kRestWindow = std::chrono::seconds(1);
@@ -29,6 +35,7 @@ struct SceneParams {
   // Whether rays also clear voxels of an object's own map that they cross on their way to it.
   bool clear_objects_by_rays = false;
 
+  MotionModel motion = MotionModel::kLastMotion;
   Duration horizon = std::chrono::seconds(5);           // how long a motion is extrapolated
   Duration object_lifetime = std::chrono::seconds(10);  // unseen for longer: dropped
   Duration history = std::chrono::seconds(10);          // how far back poses are kept

@@ -34,6 +34,9 @@ struct Body {
   Aabb BoxB() const;
 };
 
+// From a point in B, inside or outside, to the body's surface; less inside several parts at once.
+double SurfaceDistance(const Eigen::Vector3d& p_B, const Body& body);
+
 // Bodies with their trajectories: where everything is at every time. A value; any thread may read
 // it.
 class World {

@@ -38,6 +38,7 @@ int main() {
     SceneParams params;
     params.rays = {.max_range_m = 6, .discretize = variant};
     params.clear_objects_by_rays = variant;
+    params.motion = variant ? MotionModel::kTrack : MotionModel::kLastMotion;
     params.rest_distance_m = variant ? 0.5 : 0;
     params.keep_distance_m = variant ? 3 : 0;
     ThreadPool pool(2);

@@ -1,0 +1,56 @@
+// How well the maps of objects fit the true objects.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "clearway/report/met_surfaces.h"
+#include "clearway/scene/scene_snapshot.h"
+#include "clearway/sim/world.h"
+
+namespace clearway {
+
+struct ObjectFit {
+  double voxel_m = 0;
+  // From the centre of each occupied voxel to the nearest true surface, in metres, ascending.
+  std::vector<double> errors_m;
+  // Pieces, of the size of a voxel, of the true surface that rays met; and of these the ones with
+  // an occupied voxel at most half a voxel away.
+  std::size_t met = 0, covered = 0;
+  // Occupied voxels after each frame in which it was seen.
+  std::vector<std::int64_t> growth;
+
+  // The error that this share (0 to 1) of the voxels does not exceed; NaN without any.
+  double Quantile_m(double share) const;
+  double Accuracy_m() const { return Quantile_m(0.5); }
+  double Completeness() const;  // covered of met; NaN without any
+};
+
+// Collects the newest map of each object. Where its frame O lies in the true body is taken to be
+// the mean over the frames since the map was begun: what the source gets wrong about the object's
+// place is no fault of the map's. One thread.
+class ObjectFitter {
+ public:
+  explicit ObjectFitter(std::shared_ptr<const World> world) : world_(std::move(world)) {}
+
+  // The version after a frame.
+  void Add(const SceneSnapshot& scene);
+
+  // Of every object seen so far, dropped ones too.
+  std::map<ObjectId, ObjectFit> Fits(const MetSurfaces& met) const;
+
+ private:
+  struct Seen {
+    std::shared_ptr<const MovingObject> object;
+    std::vector<Pose> T_O_B;  // by frame
+    std::vector<std::int64_t> growth;
+  };
+  ObjectFit FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const;
+
+  std::shared_ptr<const World> world_;
+  std::map<ObjectId, Seen> seen_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,93 @@
+#include "clearway/report/object_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "clearway/geometry/distance.h"
+
+namespace clearway {
+namespace {
+
+// The rotations are close to each other.
+Pose MeanOf(const std::vector<Pose>& poses) {
+  const Pose first_inverse = Inverse(poses.front());
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  for (const Pose& pose : poses) {
+    translation += pose.translation;
+    turn += Log(first_inverse * pose).angular;
+  }
+  const double share = 1.0 / static_cast<double>(poses.size());
+  return {poses.front().rotation * Exp({share * turn, Eigen::Vector3d::Zero()}).rotation,
+          share * translation};
+}
+
+bool IsCovered(const VoxelMap& map_O, const Eigen::Vector3d& p_O) {
+  const VoxelGrid& grid = map_O.grid();
+  const VoxelKey middle = grid.KeyOf(p_O);
+  for (int neighbor = 0; neighbor < 27; ++neighbor) {
+    const VoxelKey key{middle.x + neighbor % 3 - 1, middle.y + neighbor / 3 % 3 - 1,
+                       middle.z + neighbor / 9 - 1};
+    if (map_O.State(key) == VoxelState::kOccupied &&
+        PointBoxDistance(p_O, grid.BoxOf(key)) <= 0.5 * grid.resolution_m()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+double ObjectFit::Quantile_m(double share) const {
+  if (errors_m.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto last = static_cast<double>(errors_m.size() - 1);
+  return errors_m[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
+}
+
+double ObjectFit::Completeness() const {
+  return met == 0 ? std::numeric_limits<double>::quiet_NaN()
+                  : static_cast<double>(covered) / static_cast<double>(met);
+}
+
+void ObjectFitter::Add(const SceneSnapshot& scene) {
+  for (const auto& object : scene.objects) {
+    const auto T_W_B = world_->T_W_B(object->id, scene.stamp);
+    if (!T_W_B || object->last_seen != scene.stamp) continue;
+    Seen& seen = seen_[object->id];
+    if (seen.object != nullptr && seen.object->first_seen != object->first_seen) seen = {};
+    seen.object = object;
+    seen.growth.push_back(object->map_O.occupied_count());
+    if (!object->bridged) {
+      seen.T_O_B.push_back(Inverse(object->history.back().T_W_O) * *T_W_B);
+    }
+  }
+}
+
+std::map<ObjectId, ObjectFit> ObjectFitter::Fits(const MetSurfaces& met) const {
+  std::map<ObjectId, ObjectFit> fits;
+  for (const auto& [id, seen] : seen_) {
+    if (!seen.T_O_B.empty()) fits[id] = FitOf(seen, met.Of(id));
+  }
+  return fits;
+}
+
+ObjectFit ObjectFitter::FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const {
+  const Body& body = *world_->FindObject(seen.object->id);
+  const VoxelMap& map_O = seen.object->map_O;
+  const Pose T_O_B = MeanOf(seen.T_O_B), T_B_O = Inverse(T_O_B);
+  ObjectFit fit;
+  fit.voxel_m = map_O.grid().resolution_m();
+  fit.growth = seen.growth;
+  map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
+    block.occupied.ForEach([&](int index) {
+      const Eigen::Vector3d center_O = map_O.grid().CenterOf(VoxelAt(block_key, index));
+      fit.errors_m.push_back(SurfaceDistance(T_B_O * center_O, body));
+    });
+  });
+  std::ranges::sort(fit.errors_m);
+  fit.met = met_B.size();
+  for (const auto& [key, p_B] : met_B) fit.covered += IsCovered(map_O, T_O_B * p_B);
+  return fit;
+}
+
+}  // namespace clearway

@@ -1,0 +1,127 @@
+#include "clearway/report/object_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "clearway/scene/scene_builder.h"
+#include "clearway/sim/scenarios.h"
+#include "clearway/sim/simulation.h"
+#include "report/test_scene.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// A cube of 1 m at the origin.
+std::shared_ptr<const World> OneCube() {
+  auto world = std::make_shared<World>();
+  world->Add(Body::Single(7, "cube", Box{{1, 1, 1}}, FixedPose{Pose{}}));
+  return world;
+}
+
+// Its map, of these voxels of 0.1 m; O lies off B.
+SceneSnapshot SceneWith(const std::vector<VoxelKey>& voxels_O, Time first_seen, Time stamp) {
+  SceneSnapshot scene = SceneSnapshot::Empty({});
+  scene.stamp = stamp;
+  VoxelMap map_O(0.1);
+  for (const VoxelKey& key : voxels_O) map_O.Set(key, 1000);
+  MovingObject object;
+  object.id = 7;
+  object.history = {{stamp, Pose::Translation(0.5, 0, 0)}};
+  object.first_seen = first_seen;
+  object.last_seen = stamp;
+  scene.objects = {std::make_shared<const MovingObject>(WithMap(object, map_O))};
+  return scene;
+}
+
+Frame FrameOf(const std::vector<Eigen::Vector3f>& points_S, Time stamp) {
+  Frame frame;
+  frame.stamp = stamp;
+  frame.points_S = points_S;
+  frame.labels.assign(points_S.size(), 7);
+  return frame;
+}
+
+const Time kFirst(std::chrono::seconds(1)), kSecond(std::chrono::seconds(2));
+
+class ObjectFitterTest : public ::testing::Test {
+ protected:
+  void Add(const Frame& frame, const Pose& T_W_S, const SceneSnapshot& scene) {
+    met_.Add(frame, T_W_S, scene);
+    dut_.Add(scene);
+  }
+  std::map<ObjectId, ObjectFit> Fits() const { return dut_.Fits(met_); }
+
+  MetSurfaces met_{OneCube()};
+  ObjectFitter dut_{OneCube()};
+};
+
+TEST_F(ObjectFitterTest, MeasuresFromTheMiddleOfVoxelsToTheSurface) {
+  // B's x is O's + 0.5: these lie 0.05 m in, 0.35 m in and 0.25 m out.
+  Add(FrameOf({}, kFirst), Pose{}, SceneWith({{-1, 0, 0}, {-4, 0, 0}, {2, 0, 0}}, kFirst, kFirst));
+  const ObjectFit fit = Fits().at(7);
+  EXPECT_THAT(fit.errors_m,
+              ElementsAre(DoubleNear(0.05, 1e-9), DoubleNear(0.25, 1e-9), DoubleNear(0.35, 1e-9)));
+  EXPECT_NEAR(fit.Accuracy_m(), 0.25, 1e-9);
+  EXPECT_TRUE(std::isnan(fit.Completeness()));
+  EXPECT_THAT(fit.growth, ElementsAre(3));
+}
+
+TEST_F(ObjectFitterTest, TellsHowMuchOfWhatRaysMetHasVoxels) {
+  // Of the sensor at x = -3: on the face towards it, two points in one voxel; on another face.
+  const Frame frame =
+      FrameOf({{2.5, 0.01, 0.01}, {2.5, 0.02, 0.02}, {2.5, 0.3, 0.3}, {3, 0, 0.5}}, kFirst);
+  Add(frame, Pose::Translation(-3, 0, 0), SceneWith({{-10, 0, 0}, {-10, 3, 2}}, kFirst, kFirst));
+  const ObjectFit fit = Fits().at(7);
+  EXPECT_EQ(fit.met, 3u);
+  EXPECT_EQ(fit.covered, 2u);
+}
+
+TEST_F(ObjectFitterTest, AMapThatIsBegunAnewCountsFromThere) {
+  Add(FrameOf({{0.5, 0.3, 0}}, kFirst), Pose{}, SceneWith({{0, 3, 0}}, kFirst, kFirst));
+  Add(FrameOf({{0.5, 0, 0}}, kSecond), Pose{}, SceneWith({{0, 0, 0}}, kSecond, kSecond));
+  const ObjectFit fit = Fits().at(7);
+  EXPECT_EQ(fit.met, 1u);
+  EXPECT_EQ(fit.Completeness(), 1);
+  EXPECT_THAT(fit.growth, ElementsAre(1));
+}
+
+TEST(ObjectFitter, WithoutATruthThereIsNoFit) {
+  const auto nothing = std::make_shared<const World>();
+  ObjectFitter dut(nothing);
+  dut.Add(SceneWith({{0, 3, 0}}, kFirst, kFirst));
+  EXPECT_THAT(dut.Fits(MetSurfaces(nothing)), IsEmpty());
+}
+
+// Told exactly, everything that rays met is in the map, and nothing else.
+TEST(ObjectFitter, OfAnExactSimulationIsGood) {
+  const Simulation simulation(*MakeScenario("small"));
+  SceneParams params;
+  ThreadPool pool(1);
+  SceneBuilder builder(params, {}, pool);
+  const auto world = std::make_shared<const World>(simulation.world());
+  MetSurfaces met(world);
+  ObjectFitter dut(world);
+  for (std::size_t k = 0; k < simulation.frame_count(); ++k) {
+    const Frame frame = simulation.MakeFrame(k);
+    ASSERT_TRUE(builder.Apply(frame).ok());
+    const ScenePtr scene = builder.Publish();
+    met.Add(frame, simulation.TrueT_W_S(k), *scene);
+    dut.Add(*scene);
+  }
+  const auto fits = dut.Fits(met);
+  EXPECT_GE(fits.size(), 2u);
+  for (const auto& [id, fit] : fits) {
+    EXPECT_LT(fit.Accuracy_m(), 0.05) << id;
+    EXPECT_LE(fit.Quantile_m(1), 0.5 * std::sqrt(3.0) * 0.1 + 1e-3) << id;
+    EXPECT_EQ(fit.Completeness(), 1) << id;
+  }
+}
+
+}  // namespace
+}  // namespace clearway
