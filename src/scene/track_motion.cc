@@ -9,6 +9,7 @@ namespace {
 
 // Older poses say nothing of how the object will go on. What turns changes its mind sooner.
 constexpr double kWindow_s = 1.15, kTurnWindow_s = 0.55;
+constexpr std::size_t kFewest = 3;  // poses that can be fitted
 constexpr double kFading_s = 0.45;  // a pose of that age counts for 1/e
 // Half of the time ahead at which a screw comes to where an object that gains speed does.
 constexpr double kAim_s = 0.5;
@@ -26,7 +27,7 @@ struct Sample {
   Eigen::Vector3d center_O;  // from where the centre is
 };
 
-// The newest first; at least two if one lies within the longest turn.
+// The newest first.
 std::vector<Sample> SamplesOf(std::span<const StampedPose> track, const Eigen::Vector3d& center_O) {
   const StampedPose& last = track.back();
   const Pose T_O_W = Inverse(last.T_W_O);
@@ -35,8 +36,7 @@ std::vector<Sample> SamplesOf(std::span<const StampedPose> track, const Eigen::V
     const double at_s = ToSeconds(track[i].stamp - last.stamp);
     const Pose seen = T_O_W * track[i].T_W_O;
     const Eigen::Vector3d turn_O = Log(seen).angular;
-    if (turn_O.norm() > kLongestTurn_rad) break;
-    if (samples.size() >= 2 && at_s < -kWindow_s) break;
+    if (at_s < -kWindow_s || turn_O.norm() > kLongestTurn_rad) break;
     samples.push_back({at_s, std::exp(at_s / kFading_s), turn_O, seen * center_O - center_O});
   }
   return samples;
@@ -141,7 +141,7 @@ Eigen::Vector3d VelocityOfCenter(const std::vector<Sample>& samples,
 
 Twist VelocityOfTrack(std::span<const StampedPose> track, const Eigen::Vector3d& center_O) {
   const std::vector<Sample> samples = SamplesOf(track, center_O);
-  if (samples.size() < 2) return VelocityBetween(track[track.size() - 2], track.back());
+  if (samples.size() < kFewest) return VelocityBetween(track[track.size() - 2], track.back());
   const Eigen::Vector3d turn_rate_O = TurnRate(samples);
   const Eigen::Vector3d up_O = track.back().T_W_O.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d center_mps = VelocityOfCenter(samples, turn_rate_O, up_O);

@@ -10,8 +10,9 @@ namespace clearway {
 
 // The velocity of the constant screw that fits the poses of about the last second (MotionModel::
 // kTrack), at O's origin; by ascending stamp, two or more. center_O is the middle of the object:
-// what is noise of its turns is felt least there. Two poses give their VelocityBetween, and so do
-// any that lie on one constant screw; an object that stands still, up to rounding, has none.
+// what is noise of its turns is felt least there. Poses that lie on one constant screw give that;
+// where there are fewer than three in that time, or it turned too far, the last two give their
+// VelocityBetween. An object that stands still, up to rounding, has none.
 //
 // Weighted least squares, later poses counting more. What turns is taken to keep its rate. Along
 // its way the object may be gaining or losing speed, evenly: a screw cannot, so it gets the speed

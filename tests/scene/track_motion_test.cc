@@ -50,11 +50,27 @@ TEST(TrackMotion, OfTwoPosesIsTheLastMotion) {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
     // However far it turns, however long ago.
-    const std::vector<StampedPose> track{{At(0), random.AnyPose(5)},
-                                         {At(random.Uniform(0.01, 5)), random.AnyPose(5)}};
+    const std::vector<StampedPose> track{
+        {At(0), random.AnyPose(5)}, {At(std::pow(10, random.Uniform(-6, 4))), random.AnyPose(5)}};
     const Twist dut = VelocityOfTrack(track, random.Vector(1));
     const Pose again = Later(track[0], dut, ToSeconds(track[1].stamp - track[0].stamp));
     EXPECT_NEAR(Apart_m(again, track[1].T_W_O), 0, 1e-6) << i;
+  }
+}
+
+// However irregular it is, a scene must never hold what is no number.
+TEST(TrackMotion, OfAnyTrackIsANumber) {
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<StampedPose> track;
+    Time stamp = At(1);
+    for (int k = random.Integer(2, 20); k > 0; --k) {
+      stamp += Duration(1) + FromSeconds(std::pow(10, random.Uniform(-9, 2)));
+      track.push_back({stamp, random.AnyPose(std::pow(10, random.Uniform(-6, 5)))});
+      if (i % 2 == 0) track.back().T_W_O.rotation.setIdentity();
+    }
+    const Twist dut = VelocityOfTrack(track, random.Vector(5));
+    EXPECT_TRUE(dut.angular.allFinite() && dut.linear.allFinite()) << i;
   }
 }
 
