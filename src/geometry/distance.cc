@@ -5,15 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/overloaded.h"
+
 namespace clearway {
 namespace {
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 // From p to the box's nearest point, with the sign of p's side.
 Eigen::Vector3d Outside(const Eigen::Vector3d& p, const Aabb& box) {

@@ -3,15 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/overloaded.h"
+
 namespace clearway {
 namespace {
-
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 Aabb Symmetric(const Eigen::Vector3d& half_m) { return {-half_m, half_m}; }
 
