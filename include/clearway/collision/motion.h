@@ -50,9 +50,9 @@ struct MotionWitness {
 
 struct MotionAnswer {
   // kFree is proved for every moment of the motion, from its first knot to its last. kUnresolved is
-  // neither proved free nor in contact, within bounded effort: what is passed within a hundredth of
-  // contact_resolution_m, or touches only the convex hull of a part that is an open mesh. Anything
-  // else is the status at the witness' end.
+  // neither proved free nor in contact, within bounded effort: what is passed within about a
+  // sixtieth of contact_resolution_m, or touches only the convex hull of a part that is an open
+  // mesh. Anything else is the status at the witness' end.
   SpaceStatus status = SpaceStatus::kUnresolved;
   // Proved free from the first knot up to here.
   Time free_until;
