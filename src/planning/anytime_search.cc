@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/tight_limit.h"
+
 namespace clearway {
 namespace {
 
@@ -53,7 +55,7 @@ bool AnytimeSearch::AddGoalAt(const ob::State* part, double seconds) {
 
 std::optional<double> AnytimeSearch::Arrives(const ob::Goal& goal, std::size_t place, double from_s,
                                              double until_s) const {
-  if (goal.isSatisfied(At(place, from_s))) return from_s;
+  if (goal.isSatisfied(At(place, std::min(from_s, latest_s_)))) return from_s;
   for (const auto& [timed, seconds] : timed_goals_) {
     if (timed != place || seconds < from_s || seconds > until_s) continue;
     if (goal.isSatisfied(At(place, seconds))) return seconds;
@@ -100,20 +102,39 @@ void AnytimeSearch::SampleNearPlaces(ob::State* part) {
                               near * space_.space()->getMaximumExtent());
 }
 
+double AnytimeSearch::LeadingBy() const {
+  double begin_s = kNever_s, arrival_s = kNever_s;
+  for (const auto& [place, seconds] : starts_) begin_s = std::min(begin_s, seconds);
+  for (const std::size_t goal : goals_) {
+    arrival_s = std::min(arrival_s, ArrivalBy(roadmap_.Place(goal)));
+  }
+  const bool tight = IsTight(latest_s_ - begin_s, arrival_s - begin_s);
+  return tight ? space_.latest_s() : latest_s_;
+}
+
+bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCondition& until) {
+  constexpr std::size_t kTriesEach = 100;
+  const std::size_t tries = kTriesEach * count;
+  const double leading_by_s = LeadingBy();
+  if (leading_by_s > latest_s_ && !AddPlacesBy(latest_s_, 1, tries, until)) return false;
+  return AddPlacesBy(leading_by_s, count, tries, until);
+}
+
 // Where hardly a place of the whole space can be visited in time, they are looked for near those
 // that can.
-bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCondition& until) {
-  constexpr std::size_t kTriesEach = 100, kHardly = 20;
+bool AnytimeSearch::AddPlacesBy(double latest_s, std::size_t count, std::size_t most_tries,
+                                const ob::PlannerTerminationCondition& until) {
+  constexpr std::size_t kHardly = 20;
   ob::State* const part = space_.space()->allocState();
   std::size_t added = 0;
-  for (std::size_t tries = 0; added < count && tries < kTriesEach * count; ++tries) {
+  for (std::size_t tries = 0; added < count && tries < most_tries; ++tries) {
     if (until()) break;
     if (tries < kHardly * (added + 1)) {
       SamplePlace(part);
     } else {
       SampleNearPlaces(part);
     }
-    if (ArrivalBy(part) >= std::min(Arrival(), latest_s_)) continue;
+    if (ArrivalBy(part) >= std::min(BestArrival(), latest_s)) continue;
     roadmap_.Add(part);
     ++added;
   }
@@ -123,14 +144,15 @@ bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCon
 
 bool AnytimeSearch::Search(double weight, const ob::Goal& goal,
                            const ob::PlannerTerminationCondition& until) {
-  const double just_later_s = std::nextafter(latest_s_, 2 * latest_s_);
+  const double leading_by_s = LeadingBy();
+  const double just_later_s = std::nextafter(leading_by_s, 2 * leading_by_s);
   std::vector<Stay> found = search_.Find(
       {.starts = starts_,
        .goals = goals_,
        .arrives = [&](std::size_t place, double from_s,
                       double until_s) { return Arrives(goal, place, from_s, until_s); },
        .weight = weight,
-       .earlier_than_s = std::min(Arrival() - kEarlier_s, just_later_s),
+       .earlier_than_s = std::min(BestArrival() - kEarlier_s, just_later_s),
        .most_ways = kWaysEach * roadmap_.size(),
        .cancelled = [&] { return until(); }});
   if (found.empty()) return false;

@@ -30,7 +30,8 @@ class AnytimeSearch {
 
   void AddStart(const ompl::base::State* part, double seconds);
   bool has_start() const { return !starts_.empty(); }
-  // The arrival shall not be later than that.
+  // No path that arrives later is given. Where that leaves little time to spare, later ones are
+  // looked for too: bettered, they become paths in time.
   void ArriveBy(double latest_s) { latest_s_ = std::min(latest_s_, latest_s); }
   // To be at the place when the goal says so.
   void AddGoal(const ompl::base::State* part);
@@ -42,15 +43,15 @@ class AnytimeSearch {
   // Adds places that can be visited on the way to an arrival earlier than the best one. False
   // if there are none.
   bool AddPlaces(std::size_t count, const ompl::base::PlannerTerminationCondition& until);
-  // Whether an earlier arrival was found. `weight`: of what is left of the way.
+  // Whether an earlier arrival was found, be it late. `weight`: of what is left of the way.
   bool Search(double weight, const ompl::base::Goal& goal,
               const ompl::base::PlannerTerminationCondition& until);
   void JoinAlongPath();
 
-  bool found() const { return !path_.empty(); }
-  double Arrival() const {
-    return path_.empty() ? std::numeric_limits<double>::infinity() : path_.back().arrival_s;
-  }
+  bool found() const { return led() && path_.back().arrival_s <= latest_s_; }
+  // Whether there is a path at all: one that is late leads to those in time.
+  bool led() const { return !path_.empty(); }
+  double Arrival() const { return found() ? BestArrival() : kNever_s; }
   std::shared_ptr<ompl::geometric::PathGeometric> Path() const;
   // Whether no goal is free, whenever one looks from when it can be reached on.
   bool GoalsAreTaken();
@@ -58,13 +59,21 @@ class AnytimeSearch {
   std::size_t places() const { return roadmap_.size(); }
   std::size_t ways_asked() const { return checks_.ways_asked(); }
   // Of the search that found the best path; without a path, of the last one.
-  const std::vector<Stay>& stays() const { return found() ? found_in_ : search_.stays(); }
+  const std::vector<Stay>& stays() const { return led() ? found_in_ : search_.stays(); }
   // Valid until the next one is asked for.
   const ompl::base::State* BeginOf(const Stay& stay) const {
     return At(stay.place, stay.arrival_s);
   }
 
  private:
+  static constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
+  double BestArrival() const { return led() ? path_.back().arrival_s : kNever_s; }
+  // A path that arrives until then may lead to one in time, or is one.
+  double LeadingBy() const;
+  // At most `count` on the way to an arrival until then. False if none is found.
+  bool AddPlacesBy(double latest_s, std::size_t count, std::size_t most_tries,
+                   const ompl::base::PlannerTerminationCondition& until);
   ompl::base::State* At(std::size_t place, double seconds) const;
   void SamplePlace(ompl::base::State* part);
   void SampleNearPlaces(ompl::base::State* part);
@@ -85,7 +94,7 @@ class AnytimeSearch {
   std::vector<std::pair<std::size_t, double>> starts_;
   std::vector<std::size_t> goals_;
   std::vector<std::pair<std::size_t, double>> timed_goals_;  // of goals_, with times
-  std::vector<Stay> path_;                                   // the best so far
+  std::vector<Stay> path_;                                   // the best so far, be it late
   std::vector<Stay> found_in_;                               // all of the search that found it
 };
 

@@ -132,11 +132,11 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   bool enough = impl_->search.found() && !pdef_->hasExactSolution() && AddSolution();
   impl_->shown_from.reset();
   while (more && !enough && !until()) {
-    const bool first = !impl_->search.found();
+    const bool first = !impl_->search.led();
     const bool earlier = impl_->search.Search(first ? kGreedy : 1, *pdef_->getGoal(), until);
     ShowProgress();
     if (earlier) {
-      enough = AddSolution();
+      enough = impl_->search.found() && AddSolution();
       impl_->search.JoinAlongPath();
       if (first) continue;
     }

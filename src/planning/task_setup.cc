@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/planning/space_time_setup.h"
 #include "planning/task_space.h"
+#include "planning/tight_limit.h"
 
 namespace clearway {
 
@@ -35,12 +36,14 @@ absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
                                                    "; at full speed the goal is reached after ",
                                                    arrival_s, " s"));
   }
+  const double space_s = LeadingSeconds(ToSeconds(task.time_limit), arrival_s);
+  space->as<ob::TimeStateSpace>(1)->setBounds(0, space_s);
   PlanningOptions options;
   options.check = task.options.check;
   options.contact_resolution_m = task.options.contact_resolution_m;
   constexpr double kSame = 1e-6;  // goals are places, not regions
   return MakeSpaceTimeSetup(space, checker, MappingOf(task, checker->robot()), options, start.get(),
-                            goal_part, {.tolerance = kSame});
+                            goal_part, {.tolerance = kSame, .latest = task.time_limit});
 }
 
 }  // namespace clearway

@@ -79,5 +79,29 @@ TEST(SolveWindows, TheTimeIsTooShortForAWayRound) {
   EXPECT_EQ(solved.outcome->status, PlanStatus::kNoTimeToSpare);
 }
 
+// An arm of six joints in a plane, which a post keeps from swinging over: the first ways that are
+// found take three times as long as the limit leaves.
+TEST(SolveWindows, ATightLimitIsMet) {
+  Robot robot{"arm", {}};
+  PlanTask task = AcrossThePlace();
+  ArmSpace arm;
+  for (int i = 0; i <= 6; ++i) {
+    robot.links.push_back({"link" + std::to_string(i),
+                           {{Box{{0.3, 0.06, 0.06}}, Pose::Translation(i == 0 ? 0 : 0.15, 0, 0)}}});
+    if (i == 0) continue;
+    arm.joints.push_back({Pose::Translation(i == 1 ? 0 : 0.3, 0, i == 1 ? 0.2 : 0),
+                          Eigen::Vector3d::UnitZ(), -2.5, 2.5, 1});
+  }
+  task.space = arm;
+  task.start = {-1, 0, 0, 0, 0, 0};
+  task.goal = {1, 0, 0, 0, 0, 0};
+  task.time_limit = std::chrono::milliseconds(2800);
+  TestWorld world;
+  world.Given(1, Cylinder{0.1, 1}, Pose::Translation(1.2, 0, 0));
+  const ScenePtr scene = world.Scene();
+  const Solved solved = SolveFor(kAnyTime_s, scene, robot, task);
+  ExpectGood(solved, scene, robot, task);
+}
+
 }  // namespace
 }  // namespace clearway

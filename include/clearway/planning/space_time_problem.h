@@ -17,7 +17,9 @@ namespace clearway {
 struct GoalOptions {
   // Distance, as the space without time measures it, that counts as arrived.
   double tolerance = 0.1;
-  // Arrival at this time of the space at the latest; none: at the space's own latest.
+  // Arrival at this time of the space at the latest; none: at the space's own latest. One that
+  // leaves little time to spare (less than twice what the straight way takes) is met sooner in a
+  // space that goes on for longer: later paths, which are easier to find, lead to those in time.
   std::optional<Duration> latest = std::nullopt;
 };
 

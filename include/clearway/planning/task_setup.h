@@ -11,8 +11,9 @@
 
 namespace clearway {
 
-// MakeSpaceTimeSetup for the task; any other planner that plans in space-time may be set. Errors
-// are those of Solve that come before the search.
+// MakeSpaceTimeSetup for the task; any other planner that plans in space-time may be set. The space
+// goes on for longer than a tight time limit (see GoalOptions::latest). Errors are those of Solve
+// that come before the search.
 absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
     const PlanTask& task, const std::shared_ptr<const StateChecker>& checker);
 
