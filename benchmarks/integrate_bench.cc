@@ -74,7 +74,16 @@ OctomapCost Octomap(const Input& input, const std::vector<octomap::Pointcloud>& 
 SceneParams ParamsFor(const Input& input, bool discretize) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = input.resolution_m;
-  params.rays = {input.range_m, discretize};
+  params.rays = {.max_range_m = input.range_m, .discretize = discretize};
+  return params;
+}
+
+// With all that makes maps and predictions better.
+SceneParams RobustParamsFor(const Input& input) {
+  SceneParams params = ParamsFor(input, false);
+  params.rays.grazing_m = 4;
+  params.motion = MotionModel::kTrack;
+  params.rest_distance_m = 0.6;
   return params;
 }
 
@@ -108,8 +117,9 @@ class Integrator {
 };
 
 // Has taken the frames once: what a process pays for its first scans alone is not counted.
-std::unique_ptr<Integrator> WarmIntegrator(const Input& input, bool discretize, int threads) {
-  auto integrator = std::make_unique<Integrator>(ParamsFor(input, discretize), threads);
+std::unique_ptr<Integrator> WarmIntegrator(const Input& input, const SceneParams& params,
+                                           int threads) {
+  auto integrator = std::make_unique<Integrator>(params, threads);
   for (const Frame& frame : input.frames) integrator->Take(frame);
   return integrator;
 }
@@ -131,7 +141,7 @@ double FramesMs(Integrator& integrator, const Input& input) {
 void AgainstOctomap(benchmark::State& state, const Input& input, const std::string& name,
                     bool discretize) {
   const std::vector<octomap::Pointcloud> clouds = CloudsOf(input);
-  const auto integrator = WarmIntegrator(input, discretize, 1);
+  const auto integrator = WarmIntegrator(input, ParamsFor(input, discretize), 1);
   for (auto _ : state) {
     const OctomapCost octomap = Octomap(input, clouds, discretize);
     const double ours_ms = FramesMs(*integrator, input);
@@ -148,7 +158,8 @@ void AgainstOctomap(benchmark::State& state, const Input& input, const std::stri
 
 // Likewise with one thread and with two.
 void OneAndTwoThreads(benchmark::State& state, const Input& input) {
-  const auto one = WarmIntegrator(input, false, 1), two = WarmIntegrator(input, false, 2);
+  const SceneParams params = ParamsFor(input, false);
+  const auto one = WarmIntegrator(input, params, 1), two = WarmIntegrator(input, params, 2);
   const auto scans = static_cast<double>(input.frames.size());
   for (auto _ : state) {
     const double one_ms = FramesMs(*one, input), two_ms = FramesMs(*two, input);
@@ -156,6 +167,16 @@ void OneAndTwoThreads(benchmark::State& state, const Input& input) {
     state.counters["scan_2threads_ms"] = two_ms / scans;
     state.counters["integrate_2threads_x"] = one_ms / two_ms;
     if (!SameContent(one->scene(), two->scene())) state.SkipWithError("the maps differ");
+  }
+}
+
+// Likewise with the options and without.
+void RobustAndPlain(benchmark::State& state, const Input& input, const std::string& name) {
+  const auto plain = WarmIntegrator(input, ParamsFor(input, false), 1);
+  const auto robust = WarmIntegrator(input, RobustParamsFor(input), 1);
+  for (auto _ : state) {
+    const double plain_ms = FramesMs(*plain, input), robust_ms = FramesMs(*robust, input);
+    state.counters["integrate_robust_" + name + "_x"] = plain_ms / robust_ms;
   }
 }
 
@@ -172,6 +193,8 @@ void Register(Effort effort) {
   against_octomap("discrete", whole, true);
   against_octomap("fov", fov, false);
   against_octomap("depth", depth, false);
+  Add("robust_whole", effort, [=](auto& state) { RobustAndPlain(state, *whole, "whole"); });
+  Add("robust_fov", effort, [=](auto& state) { RobustAndPlain(state, *fov, "fov"); });
   Add("threads", effort, [=](auto& state) { OneAndTwoThreads(state, *whole); });
 }
 

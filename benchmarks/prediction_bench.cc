@@ -1,12 +1,16 @@
 // How far from their recorded boxes the objects of the real drive are predicted: by their tracks,
 // where what only seems to move is told from what moves; and by the paper's rule (their last motion
-// goes on).
+// goes on). And how often they keep within the bounds that are stated of them, there and among the
+// tracks of another drive.
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/scene/scene_builder.h"
@@ -17,6 +21,9 @@ namespace clearway::bench {
 namespace {
 
 constexpr ObjectId kVan = 1, kCyclist = 2, kParked = 4;
+
+constexpr std::array kAhead = {std::chrono::milliseconds(1000), std::chrono::milliseconds(500),
+                               std::chrono::milliseconds(2000), std::chrono::milliseconds(3000)};
 
 SceneParams ByLastMotion() {
   SceneParams params;
@@ -31,17 +38,51 @@ SceneParams ByTrack() {
   return params;
 }
 
+// The corners of the frame's boxes, instead of its scan.
+void SeeBoxes(const LidarFolder& folder, Frame& frame) {
+  frame.points_S.clear();
+  frame.labels.clear();
+  const Pose T_S_W = Inverse(frame.T_W_S);
+  for (const RecordedBox& box : folder.boxes) {
+    if (box.frame != static_cast<int>(frame.sequence)) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d sides(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5,
+                                  corner & 4 ? 0.5 : -0.5);
+      const Eigen::Vector3d p_S = T_S_W * box.T_W_B * box.size_m.cwiseProduct(sides);
+      frame.points_S.push_back(p_S.cast<float>());
+      frame.labels.push_back(box.id);
+    }
+  }
+}
+
 std::map<ObjectId, std::vector<PredictionErrors>> ErrorsOn(const LidarFolder& folder,
-                                                           const SceneParams& params) {
+                                                           const SceneParams& params,
+                                                           bool boxes_alone) {
   ThreadPool pool(1);
   SceneBuilder builder(params, {}, pool);
-  PredictionScore score(TruthOf(folder), {std::chrono::seconds(1)});
+  PredictionScore score(TruthOf(folder), {kAhead.begin(), kAhead.end()});
   for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
-    const auto frame = folder.frames.read(k);
+    auto frame = folder.frames.read(k);
+    if (frame.ok() && boxes_alone) SeeBoxes(folder, *frame);
     if (!frame.ok() || !builder.Apply(*frame).ok()) std::abort();
     score.Add(*builder.Publish());
   }
   return score.Errors();
+}
+
+// Of all objects together.
+void CountWithin(const std::map<ObjectId, std::vector<PredictionErrors>>& errors,
+                 const std::string& suffix, benchmark::State& state) {
+  for (std::size_t i = 0; i < kAhead.size(); ++i) {
+    std::size_t within = 0, all = 0;
+    for (const auto& [id, of_object] : errors) {
+      within += of_object[i].within;
+      all += of_object[i].errors_m.size();
+    }
+    const std::string ahead = absl::StrCat(ToSeconds(kAhead[i]), "s");
+    state.counters[absl::StrCat("prediction_within", suffix, "_", ahead)] =
+        static_cast<double>(within) / static_cast<double>(all);
+  }
 }
 
 void Predict(benchmark::State& state, const std::string& path, LidarPoses poses,
@@ -49,7 +90,8 @@ void Predict(benchmark::State& state, const std::string& path, LidarPoses poses,
   for (auto _ : state) {
     const auto folder = OpenLidarFolder(path, {.poses = poses});
     if (!folder.ok()) return state.SkipWithError(folder.status().ToString().c_str());
-    const auto errors = ErrorsOn(*folder, params);
+    const auto errors = ErrorsOn(*folder, params, false);
+    CountWithin(errors, suffix, state);
     for (const auto& [id, name] :
          {std::pair{kVan, "van"}, {kCyclist, "cyclist"}, {kParked, "parked"}}) {
       state.counters[std::string("prediction_") + name + suffix + "_1s_m"] =
@@ -58,11 +100,26 @@ void Predict(benchmark::State& state, const std::string& path, LidarPoses poses,
   }
 }
 
+// Of 146 objects: pedestrians, vehicles, bollards.
+void PredictBoxes(benchmark::State& state, const std::string& path) {
+  for (auto _ : state) {
+    const auto folder = OpenLidarFolder(path, {.allow_missing_points = true});
+    if (!folder.ok()) return state.SkipWithError(folder.status().ToString().c_str());
+    SceneParams params = ByTrack();
+    params.rays.max_range_m = -1;
+    params.resolution_m = 2;  // it is of no interest
+    CountWithin(ErrorsOn(*folder, params, true), "_av2", state);
+  }
+}
+
 void Register(const Effort& effort) {
-  const auto path = DataPath("kitti0000_fov");
-  if (!path) return;  // it has said so
   Effort once = effort;
   once.repetitions = 1;
+  if (const auto boxes = DataPath("av2_adcf7d18")) {
+    Add("prediction_av2", once, [=](auto& state) { PredictBoxes(state, *boxes); });
+  }
+  const auto path = DataPath("kitti0000_fov");
+  if (!path) return;  // it has said so
   const std::string folder = *path;
   Add("prediction_last_motion", once, [=](auto& state) {
     Predict(state, folder, LidarPoses::kIcp, "_last_motion", ByLastMotion());

@@ -12,6 +12,8 @@ AT_LEAST = {
     "integrate_2threads_x": 1.4,
     "integrate_fov_vs_octomap_x": 25,
     "integrate_depth_vs_octomap_x": 30,
+    "integrate_robust_whole_x": 0.8,
+    "integrate_robust_fov_x": 0.8,
     "memory_vs_octomap_x": 4,
     "lookup_random_vs_octomap_x": 6,
     "lookup_coherent_vs_octomap_x": 20,
@@ -72,6 +74,13 @@ AT_MOST = {
 }
 
 
+BETWEEN = {
+    f"prediction_within{drive}_{ahead}s": (0.9, 0.98)
+    for drive in ("", "_oxts", "_av2")
+    for ahead in ("0.5", "1", "2", "3")
+}
+
+
 def row(name, summary, word, bar, meets):
     if name not in summary:
         return f"{name:<36} {'not measured':>12}"
@@ -86,6 +95,8 @@ def main():
         summary = json.load(file)
     for name, bar in AT_LEAST.items():
         print(row(name, summary, "at least", bar, lambda value: value >= bar))
+    for name, (low, high) in BETWEEN.items():
+        print(row(name, summary, f"{low} to", high, lambda value: low <= value <= high))
     for name, bar in AT_MOST.items():
         print(row(name, summary, "at most", bar, lambda value: value <= bar))
 

@@ -12,7 +12,7 @@ using Intervals = absl::StatusOr<std::vector<std::vector<TimeInterval>>>;
 // find(checker) -> Intervals, on the version that is asked for.
 template <class Find, class Response>
 absl::Status Answer(ServerCore& core, const v1::SceneSelector& selector,
-                    const std::string& robot_id, double inflation_mps, const Gone& gone,
+                    const std::string& robot_id, const CheckOptions& options, const Gone& gone,
                     Find&& find, Response* response) {
   const absl::StatusOr<ScenePtr> scene = core.SceneFor(selector, gone);
   if (!scene.ok()) return scene.status();
@@ -22,7 +22,8 @@ absl::Status Answer(ServerCore& core, const v1::SceneSelector& selector,
   if (!intervals.ok()) return intervals.status();
   Write(VersionOf(**scene), response->mutable_scene());
   response->set_horizon_ns((*scene)->params.horizon.count());
-  response->set_inflation_mps(inflation_mps);
+  response->set_inflation_mps(options.inflation_mps);
+  response->set_bound_multiple(options.bound_multiple);
   Write(*intervals, response->mutable_intervals());
   const std::uint64_t limit = core.config.limits.max_message_bytes;
   const std::uint64_t size = response->ByteSizeLong();
@@ -55,8 +56,8 @@ grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
       return clearway::FindSafeIntervals(checker, question->T_W_L, question->window,
                                          question->options);
     };
-    return Answer(core_, request->selector(), request->robot_id(), waits.check.inflation_mps,
-                  GoneOf(context), find, response);
+    return Answer(core_, request->selector(), request->robot_id(), waits.check, GoneOf(context),
+                  find, response);
   });
 }
 
@@ -78,8 +79,8 @@ grpc::Status CheckHandlers::FindDepartureIntervals(grpc::ServerContext* context,
       return clearway::FindDepartureIntervals(checker, question->motions, *window,
                                               {question->options, ReadResolution(*request)});
     };
-    return Answer(core_, motions.selector(), motions.robot_id(),
-                  question->options.check.inflation_mps, GoneOf(context), find, response);
+    return Answer(core_, motions.selector(), motions.robot_id(), question->options.check,
+                  GoneOf(context), find, response);
   });
 }
 

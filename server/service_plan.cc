@@ -27,6 +27,7 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone&
     Write(VersionOf(**scene), response.mutable_scene());
     response.set_horizon_ns((*scene)->params.horizon.count());
     response.set_inflation_mps(task->options.check.inflation_mps);
+    response.set_bound_multiple(task->options.check.bound_multiple);
     lost = lost || !writer.Write(response);
   };
   const auto outcome = Solve(

@@ -154,6 +154,8 @@ std::vector<Setting> SceneSettings() {
                        "probability from which a voxel is occupied"),
       CLEARWAY_SETTING("scene.max_range_m", scene.rays.max_range_m, "negative: no limit"),
       CLEARWAY_SETTING("scene.discretize", scene.rays.discretize, "one ray per end voxel"),
+      CLEARWAY_SETTING("scene.grazing_m", scene.rays.grazing_m,
+                       "metres before its end in which a ray spares what it grazes"),
       CLEARWAY_SETTING("scene.solid", scene.solid, "what an object fills: convex_hull or voxels"),
       CLEARWAY_SETTING("scene.clear_objects_by_rays", scene.clear_objects_by_rays,
                        "whether rays clear voxels of objects"),

@@ -39,6 +39,26 @@ absl::StatusOr<UnknownArgument> ParseUnknown(const std::string& text) {
   return UnknownArgument{UnknownPolicy::kTolerated, *fraction};
 }
 
+namespace {
+
+// By how much moving objects are grown.
+void AddGrowthFlags(CLI::App* command, CheckFlags* flags) {
+  command
+      ->add_option("--inflation", flags->inflation_mps,
+                   "Metres added round each moving object per second\nof prediction")
+      ->check(Between(0, 1e3));
+  command
+      ->add_option(
+          "--bounds", flags->bound_multiple,
+          "Added likewise: so many times how far from its\nprediction each object is in 95 "
+          "of 100 cases")
+      ->check(Between(0, 100));
+  command->add_flag("--inflate-moving-only", flags->inflate_moving_only,
+                    "Objects known to be at rest are not grown");
+}
+
+}  // namespace
+
 void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
   command
       ->add_option("--robot", flags->robot,
@@ -63,12 +83,7 @@ void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
       ->type_name("X,Y,Z,X,Y,Z");
   command->add_option("--padding", flags->padding_m, "Metres added all round the robot")
       ->check(Between(0, 1e5));
-  command
-      ->add_option("--inflation", flags->inflation_mps,
-                   "Metres added round each moving object per second\nof prediction")
-      ->check(Between(0, 1e3));
-  command->add_flag("--inflate-moving-only", flags->inflate_moving_only,
-                    "No inflation of objects known to be at rest");
+  AddGrowthFlags(command, flags);
   command
       ->add_option("--clearance", flags->clearance_m,
                    "Also the distance to what blocks, up to this many\nmetres")
@@ -112,6 +127,7 @@ absl::StatusOr<CheckOptions> CheckOptionsOf(const CheckFlags& flags, const Robot
   options.known_free_W = flags.known_free;
   options.padding_m = flags.padding_m;
   options.inflation_mps = flags.inflation_mps;
+  options.bound_multiple = flags.bound_multiple;
   options.inflate_moving_only = flags.inflate_moving_only;
   options.ignored_objects = flags.ignore;
   options.clearance_up_to_m = flags.clearance_m;

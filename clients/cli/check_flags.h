@@ -28,7 +28,7 @@ struct CheckFlags {
   UnknownArgument unknown;
   std::vector<Aabb> known_free;
   double padding_m = 0;
-  double inflation_mps = 0;
+  double inflation_mps = 0, bound_multiple = 0;
   bool inflate_moving_only = false;
   std::optional<double> clearance_m;
   std::vector<ObjectId> ignore;

@@ -23,6 +23,7 @@ struct Flags {
   std::string motion = "last";
   double rest_distance_m = 0;
   double max_range_m = 50;
+  double grazing_m = 0;
   bool json = false;
 };
 
@@ -30,6 +31,7 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = source.frames.resolution_m;
   params.rays.max_range_m = flags.max_range_m;
+  params.rays.grazing_m = flags.grazing_m;
   params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
   params.rest_distance_m = flags.rest_distance_m;
   return params;
@@ -97,6 +99,9 @@ void AddEvaluate(Cli& cli) {
       ->capture_default_str();
   command->add_option("--max-range", flags->max_range_m, "How far rays are used, in metres")
       ->check(Between(0.1, 1000))
+      ->capture_default_str();
+  command->add_option("--grazing", flags->grazing_m, "As of clearway-server --scene-grazing-m")
+      ->check(Between(0, 100))
       ->capture_default_str();
   command->add_flag("--json", flags->json, "Print JSON");
   AddSourceFlags(command, &flags->source);

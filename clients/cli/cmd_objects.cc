@@ -61,6 +61,7 @@ Json AsJson(const ObjectRow& row) {
                {"world_from_object", ToJson(o.T_W_O)},
                {"pose_stamp_ns", ToNanoseconds(o.t_k)},
                {"velocity_object", nullptr},
+               {"bound", nullptr},
                {"size_m", ToJson(o.extent.size_m)},
                {"box_object", ToJson(o.box_O)},
                {"box_world", ToJson(o.box_W)},
@@ -69,6 +70,11 @@ Json AsJson(const ObjectRow& row) {
   if (o.velocity_O) {
     json["velocity_object"] = {{"angular_radps", ToJson(o.velocity_O->angular)},
                                {"linear_mps", ToJson(o.velocity_O->linear)}};
+  }
+  if (o.bound) {
+    json["bound"] = {{"at_m", o.bound->at_m},
+                     {"speed_mps", o.bound->speed_mps},
+                     {"accel_mps2", o.bound->accel_mps2}};
   }
   if (o.future_end) json["future_end_ns"] = ToNanoseconds(*o.future_end);
   if (row.then) {

@@ -123,6 +123,7 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
   Json json = ToJson(Versioned{outcome.version, outcome.stamp});
   json["horizon_s"] = ToSeconds(outcome.horizon);
   json["inflation_mps"] = outcome.inflation_mps;
+  json["bound_multiple"] = outcome.bound_multiple;
   json["found"] = !plans.empty();
   json["status"] = WordFor(outcome.status);
   json["plans"] = Json::array();

@@ -57,6 +57,7 @@ Json ParamsJson(const SceneParams& p) {
           {"occupied_probability", p.occupancy.occupied},
           {"max_range_m", p.rays.max_range_m},
           {"discretize", p.rays.discretize},
+          {"grazing_m", p.rays.grazing_m},
           {"solid", p.solid == SolidMode::kConvexHull ? "CONVEX_HULL" : "VOXELS"},
           {"clear_objects_by_rays", p.clear_objects_by_rays},
           {"motion", p.motion == MotionModel::kTrack ? "TRACK" : "LAST_MOTION"},

@@ -44,6 +44,45 @@ void PrintPredictions(std::ostream& out, const TrueSource& source, const Evaluat
   out << table.ToString();
 }
 
+// All together; empty without any.
+std::vector<PredictionErrors> Together(
+    const std::map<ObjectId, std::vector<PredictionErrors>>& predictions) {
+  std::vector<PredictionErrors> all;
+  for (const auto& [id, of_object] : predictions) {
+    all.resize(of_object.size());
+    for (std::size_t i = 0; i < of_object.size(); ++i) {
+      all[i].ahead = of_object[i].ahead;
+      all[i] += of_object[i];
+    }
+  }
+  return all;
+}
+
+void PrintBounds(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "\nHow far it was said to be at most, 95 times of 100, in metres: median; and how often "
+         "it was no\nfarther.\n\n";
+  std::vector<std::string> header = {"id", "what"};
+  for (const Duration ahead : kAhead) {
+    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
+    header.push_back("within");
+  }
+  Table table(header);
+  const auto add = [&](const std::string& id, const std::string& name,
+                       const std::vector<PredictionErrors>& errors) {
+    std::vector<std::string> row = {id, name};
+    for (const PredictionErrors& e : errors) {
+      row.push_back(TextOf(e.MedianBound(), 2));
+      row.push_back(TextOf(e.Within(), 3));
+    }
+    table.AddRow(row);
+  };
+  for (const auto& [id, of_object] : found.predictions) {
+    add(absl::StrCat(id), NameOf(source, id), of_object);
+  }
+  if (!found.predictions.empty()) add("", "all", Together(found.predictions));
+  out << table.ToString();
+}
+
 void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "\nHow far from the true surface the occupied voxels of each object are, in metres: "
          "median, and\nwhat 95 % do not exceed; and how much of the surface that rays met has "
@@ -122,7 +161,9 @@ Json ToJson(const std::vector<PredictionErrors>& of_object) {
     json.push_back({{"ahead_s", ToSeconds(e.ahead)},
                     {"count", e.errors_m.size()},
                     {"median_m", e.Median()},
-                    {"p95_m", e.Quantile(kMost)}});
+                    {"p95_m", e.Quantile(kMost)},
+                    {"median_bound_m", e.MedianBound()},
+                    {"within_bound", e.Within()}});
   }
   return json;
 }
@@ -144,6 +185,7 @@ Json ToJson(const std::vector<SolidOverlap>& overlaps) {
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << source.frames.description << "\n\n";
   PrintPredictions(out, source, found);
+  PrintBounds(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (!found.solids.empty()) PrintSolids(out, source, found);
   if (found.static_fit) PrintStatic(out, *found.static_fit);
@@ -162,6 +204,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
     if (solids != found.solids.end()) object["solids"] = ToJson(solids->second);
     json["objects"].push_back(object);
   }
+  json["prediction"] = ToJson(Together(found.predictions));
   if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
   if (found.static_fit) json["static"] = ToJson(*found.static_fit);
   Print(out, json);

@@ -44,8 +44,9 @@ absl::Status ParseChecks(const JsonFields& fields, CheckOptions& options) {
     options.unknown = unknown->policy;
     options.max_unknown_fraction = unknown->max_fraction;
   }
-  for (const auto& [name, number] :
-       {std::pair{"padding_m", &options.padding_m}, {"inflation_mps", &options.inflation_mps}}) {
+  for (const auto& [name, number] : {std::pair{"padding_m", &options.padding_m},
+                                     {"inflation_mps", &options.inflation_mps},
+                                     {"bound_multiple", &options.bound_multiple}}) {
     const auto read = fields.NumberOr(name, *number);
     if (!read.ok()) return read.status();
     *number = *read;
@@ -94,11 +95,14 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
 }
 
 absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::path& folder) {
-  const auto fields = JsonFields::Of(
-      json, "",
-      {"name", "about", "solvable", "optimum_s", "robot", "space", "area_m", "max_speed_mps",
-       "max_turn_radps", "start", "goal", "start_s", "time_limit_s", "unknown", "padding_m",
-       "inflation_mps", "contact_resolution_m", "objects", "tracks"});
+  const auto fields =
+      JsonFields::Of(json, "", {"name",          "about",          "solvable",
+                                "optimum_s",     "robot",          "space",
+                                "area_m",        "max_speed_mps",  "max_turn_radps",
+                                "start",         "goal",           "start_s",
+                                "time_limit_s",  "unknown",        "padding_m",
+                                "inflation_mps", "bound_multiple", "contact_resolution_m",
+                                "objects",       "tracks"});
   if (!fields.ok()) return fields.status();
   Scenario scenario;
   auto name = fields->Text("name");

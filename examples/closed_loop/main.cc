@@ -18,6 +18,7 @@ struct Settings {
   std::uint64_t seed = 1;
   bool turning = false, noise = false;
   std::optional<double> inflation_mps;  // by default what suits the SLAM
+  double bound_multiple = 0;
   std::string server, out;
 };
 
@@ -66,6 +67,7 @@ absl::Status Run(const Settings& settings) {
       MakeCourse(settings.seed, settings.turning ? Traffic::kTurning : Traffic::kSteady);
   LoopOptions options = MakeLoopOptions(settings.noise, true, settings.seed);
   if (settings.inflation_mps) options.navigator.inflation_mps = *settings.inflation_mps;
+  options.navigator.bound_multiple = settings.bound_multiple;
   std::unique_ptr<SceneFeed> feed = std::make_unique<OwnScene>();
   if (!settings.server.empty()) {
     auto server = ServerScene::Start(settings.server);
@@ -103,6 +105,10 @@ int main(int argc, char** argv) {
   app.add_option("--inflation", settings.inflation_mps,
                  "Metres a second by which predictions grow: 0.7, with --noise 1, unless given")
       ->check(CLI::Range(0.0, 2.0));
+  app.add_option(
+         "--bounds", settings.bound_multiple,
+         "Beside that, so many times how far from its prediction each is in 95 of 100 cases")
+      ->check(CLI::Range(0.0, 10.0));
   app.add_option("--server", settings.server,
                  "The server's program, to be started for the scene; without it, in this process")
       ->check(CLI::ExistingFile);

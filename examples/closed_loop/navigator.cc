@@ -29,6 +29,7 @@ CheckOptions Navigator::Checks(double inflation_mps) const {
   checks.max_unknown_fraction = options_.max_unknown_fraction;
   checks.padding_m = options_.padding_m;
   checks.inflation_mps = inflation_mps;
+  checks.bound_multiple = options_.bound_multiple;
   checks.inflate_moving_only = options_.inflate_moving_only;
   return checks;
 }

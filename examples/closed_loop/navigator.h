@@ -15,6 +15,8 @@ namespace clearway::closed_loop {
 struct NavigatorOptions {
   // Metres a second by which predictions grow with their age; 0: not at all.
   double inflation_mps = 0.7;
+  // Beside that, as CheckOptions::bound_multiple.
+  double bound_multiple = 0;
   // If set, ways are looked for with this, and have to be proved with `inflation_mps` for
   // `surely_for` only: what is later will have been seen again. Where that finds none, with
   // `inflation_mps` all the way.

@@ -191,12 +191,13 @@ absl::StatusOr<CheckReply> RemoteChecker::Check(const StateBatch& states,
 absl::StatusOr<MotionReply> RemoteChecker::CheckMotions(const MotionBatch& motions,
                                                         const MotionOptions& options) const {
   if (absl::Status status = Validate(motions, robot()); !status.ok()) return status;
-  MotionReply reply{version(), stamp(), {}, 0, {}};
+  MotionReply reply{version(), stamp(), {}, 0, 0, {}};
   const auto ask = [&](std::size_t begin, std::size_t end, std::size_t knot) {
     auto part = impl_->CheckPart(motions, options, begin, end, knot);
     if (!part.ok()) return part.status();
     reply.horizon = part->horizon;
     reply.inflation_mps = part->inflation_mps;
+    reply.bound_multiple = part->bound_multiple;
     reply.answers.insert(reply.answers.end(), part->answers.begin(), part->answers.end());
     return absl::OkStatus();
   };

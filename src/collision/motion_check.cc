@@ -29,10 +29,7 @@ MotionCheck::MotionCheck(const MotionContext& context, const RobotGeometry& robo
       options_(context.check.options),
       robot_(robot),
       states_(context.check, robot),
-      stops_(context) {
-  if (context.options.world_at) return;
-  fastest_object_mps_ = context.index.fastest_mps() + options_.inflation_mps;
-}
+      stops_(context) {}
 
 void MotionCheck::Answer(std::span<const Time> times, const Pose* T_W_L, const double* deviations_m,
                          MotionAnswer& answer) {
@@ -138,7 +135,10 @@ Duration MotionCheck::ShortestSpan() const {
   for (const MovingPart& part : leg_.parts) {
     fastest_mps = std::max(fastest_mps, part.center_mps() + part.turning_mps());
   }
-  return Seconds(context_.options.contact_resolution_m / (fastest_mps + fastest_object_mps_));
+  if (!context_.options.world_at) {
+    fastest_mps += context_.index.FastestMps(leg_.span.until, options_.growth());
+  }
+  return Seconds(context_.options.contact_resolution_m / fastest_mps);
 }
 
 StateAnswer MotionCheck::StateAt(Time t) {

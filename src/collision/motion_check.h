@@ -45,9 +45,8 @@ class MotionCheck {
   const RobotGeometry& robot_;
   StateCheck states_;
   MotionStops stops_;
-  double fastest_object_mps_ = 0;  // of any of its points
-  MotionLeg leg_;                  // at hand
-  std::vector<Pose> T_W_L_;        // of StateAt
+  MotionLeg leg_;            // at hand
+  std::vector<Pose> T_W_L_;  // of StateAt
 };
 
 }  // namespace clearway

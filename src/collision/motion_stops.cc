@@ -95,13 +95,12 @@ void MotionStops::StopAtObjects(const MovingPart& part, const MovingPart::Passag
   MovingBall ball = part.BallAround(passage, options_.padding_m);
   ball.from = context_.WorldTime(ball.from);
   ball.until = context_.WorldTime(ball.until);
-  context_.index.ForEachNear(box_W, ball.from, ball.until, options_.inflation_mps,
-                             [&](std::size_t i) {
-                               const MovingObject& object = *scene_.objects[i];
-                               if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
-                               if (!context_.index.MayMeet(i, ball, options_.inflation_mps)) return;
-                               StopAtObject(part, passage, i, stop);
-                             });
+  context_.index.ForEachNear(box_W, ball.from, ball.until, options_.growth(), [&](std::size_t i) {
+    const MovingObject& object = *scene_.objects[i];
+    if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
+    if (!context_.index.MayMeet(i, ball, options_.growth())) return;
+    StopAtObject(part, passage, i, stop);
+  });
 }
 
 ObjectPiece MotionStops::PieceOf(const MovingObject& object, Time from, Time until) const {

@@ -20,7 +20,8 @@ Aabb PlacedBox(const PlacedObject& placed) {
 
 double InflationOf(const MovingObject& object, Time t, const CheckOptions& options) {
   if (options.inflate_moving_only && object.velocity_O && object.AtRest()) return 0;
-  return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k()));
+  return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k())) +
+         options.bound_multiple * object.BoundOnWay().At(ToSeconds(t - object.LastPose().stamp));
 }
 
 ObjectSolids PrepareSolids(const SceneSnapshot& scene) {
@@ -36,7 +37,7 @@ ObjectSolids PrepareSolids(const SceneSnapshot& scene) {
 
 const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
   wanted_.clear();
-  index_.ForEachNear(box_W, t, t, options_.inflation_mps,
+  index_.ForEachNear(box_W, t, t, options_.growth(),
                      [&](std::size_t index) { wanted_.push_back(index); });
   if (t == time_ && wanted_ == looked_at_) return placed_;
   time_ = t;

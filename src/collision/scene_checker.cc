@@ -83,7 +83,12 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
   if (auto status = Validate(options, robot()); !status.ok()) return status;
   if (auto status = Validate(motions, robot()); !status.ok()) return status;
   const SceneSnapshot& scene = *impl_->scene;
-  MotionReply reply{version(), stamp(), scene.params.horizon, options.check.inflation_mps, {}};
+  MotionReply reply{version(),
+                    stamp(),
+                    scene.params.horizon,
+                    options.check.inflation_mps,
+                    options.check.bound_multiple,
+                    {}};
   reply.answers.resize(motions.knot_counts.size());
   const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
                                                             options.check.allowed_contacts.end());

@@ -10,7 +10,7 @@ namespace clearway {
 namespace {
 
 constexpr double kMaxDistance_m = 1e5;
-constexpr double kMaxInflation_mps = 1e3;
+constexpr double kMaxInflation_mps = 1e3, kMaxBoundMultiple = 100;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
@@ -61,6 +61,7 @@ absl::Status Validate(const CheckOptions& options, const Robot& robot) {
        {CheckBetween("max_unknown_fraction", options.max_unknown_fraction, 0, 1),
         CheckBetween("padding_m", options.padding_m, 0, kMaxDistance_m),
         CheckBetween("inflation_mps", options.inflation_mps, 0, kMaxInflation_mps),
+        CheckBetween("bound_multiple", options.bound_multiple, 0, kMaxBoundMultiple),
         CheckBetween("clearance_up_to_m", options.clearance_up_to_m.value_or(0), 0, kMaxDistance_m),
         CheckLists(options, robot)}) {
     if (!status.ok()) return status;

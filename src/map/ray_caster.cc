@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "absl/container/flat_hash_set.h"
+#include "map/grazed_voxels.h"
 #include "map/ray_sector.h"
 
 namespace clearway {
@@ -108,6 +109,20 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
     if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
     cloud.kinds[i] == RayEnd::kHit ? update.MarkHit(rays.keys[i]) : update.MarkEnd(rays.keys[i]);
   }
+  return update;
+}
+
+ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const RayOptions& options) {
+  ScanUpdate update = Cast(map.grid(), cloud, options);
+  if (options.grazing_m == 0 || cloud.ends.empty()) return update;
+  const PreparedRays& rays = impl_->rays;
+  std::vector<RaySegment> ending;
+  ending.reserve(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
+    ending.push_back({OriginOf(cloud, i), rays.ends[i]});
+  }
+  SpareGrazed(map, ending, options.grazing_m, impl_->pool, update);
   return update;
 }
 

@@ -155,6 +155,7 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   outcome.version = checker->version();
   outcome.stamp = checker->stamp();
   outcome.inflation_mps = task.options.check.inflation_mps;
+  outcome.bound_multiple = task.options.check.bound_multiple;
   const StateAnswer start = work.AtStart();
   if (late) return outcome;
   if (auto error = work.first_error(); !error.ok()) return error;

@@ -7,10 +7,31 @@
 
 namespace clearway {
 
-double PredictionErrors::Quantile(double share) const {
-  if (errors_m.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto last = static_cast<double>(errors_m.size() - 1);
-  return errors_m[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
+namespace {
+
+double QuantileOf(const std::vector<double>& ascending, double share) {
+  if (ascending.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto last = static_cast<double>(ascending.size() - 1);
+  return ascending[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
+}
+
+void MergeInto(std::vector<double>& all, const std::vector<double>& ascending) {
+  const auto middle = static_cast<std::ptrdiff_t>(all.size());
+  all.insert(all.end(), ascending.begin(), ascending.end());
+  std::inplace_merge(all.begin(), all.begin() + middle, all.end());
+}
+
+}  // namespace
+
+double PredictionErrors::Quantile(double share) const { return QuantileOf(errors_m, share); }
+
+double PredictionErrors::MedianBound() const { return QuantileOf(bounds_m, 0.5); }
+
+PredictionErrors& PredictionErrors::operator+=(const PredictionErrors& other) {
+  MergeInto(errors_m, other.errors_m);
+  MergeInto(bounds_m, other.bounds_m);
+  within += other.within;
+  return *this;
 }
 
 PredictionScore::PredictionScore(Truth truth, std::vector<Duration> ahead)
@@ -21,7 +42,7 @@ void PredictionScore::Add(const SceneSnapshot& scene) {
     if (object->t_k() != scene.stamp || object->bridged) continue;
     const auto now = BoxOf(truth_, object->id, scene.stamp);
     if (!now) continue;
-    auto& errors_m = errors_m_.try_emplace(object->id, ahead_.size()).first->second;
+    auto& errors = errors_.try_emplace(object->id, ahead_.size()).first->second;
     const Pose T_O_W = Inverse(object->history.back().T_W_O);
     for (std::size_t i = 0; i < ahead_.size(); ++i) {
       const Time then = scene.stamp + ahead_[i];
@@ -29,17 +50,22 @@ void PredictionScore::Add(const SceneSnapshot& scene) {
       if (!box) continue;
       const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
       const Eigen::Vector3d predicted_W = T_W_O * (T_O_W * now->T_W_B.translation);
-      errors_m[i].push_back((predicted_W - box->T_W_B.translation).norm());
+      const double error_m = (predicted_W - box->T_W_B.translation).norm();
+      const double bound_m = object->BoundOnWay().At(ToSeconds(ahead_[i]));
+      errors[i].errors_m.push_back(error_m);
+      errors[i].bounds_m.push_back(bound_m);
+      errors[i].within += error_m <= bound_m;
     }
   }
 }
 
 std::map<ObjectId, std::vector<PredictionErrors>> PredictionScore::Errors() const {
-  std::map<ObjectId, std::vector<PredictionErrors>> result;
-  for (const auto& [id, of_object] : errors_m_) {
+  auto result = errors_;
+  for (auto& [id, of_object] : result) {
     for (std::size_t i = 0; i < ahead_.size(); ++i) {
-      PredictionErrors& errors = result[id].emplace_back(PredictionErrors{ahead_[i], of_object[i]});
-      std::ranges::sort(errors.errors_m);
+      of_object[i].ahead = ahead_[i];
+      std::ranges::sort(of_object[i].errors_m);
+      std::ranges::sort(of_object[i].bounds_m);
     }
   }
   return result;

@@ -91,6 +91,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   const bool known_shape = from != nullptr && to.given() && *from->given_shape == *to.given_shape;
   if (!known_shape) delta.given_shape = to.given_shape;
   delta.velocity_O = to.velocity_O;
+  delta.bound = to.bound;
   delta.T_B_O = to.T_B_O;
   delta.first_seen = to.first_seen;
   delta.last_seen = to.last_seen;
@@ -116,6 +117,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
   object.future_velocity_O = delta.future_velocity_O;
   object.velocity_O = delta.velocity_O;
+  object.bound = delta.bound;
   object.T_B_O = delta.T_B_O;
   object.first_seen = delta.first_seen;
   object.last_seen = delta.last_seen;

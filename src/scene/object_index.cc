@@ -51,6 +51,11 @@ double FastestBetween(const StampedPose& before, const StampedPose& after, doubl
   return way_m / std::max(kShortest_s, ToSeconds(after.stamp - before.stamp));
 }
 
+PositionBound Wider(const PositionBound& a, const PositionBound& b) {
+  return {std::max(a.at_m, b.at_m), std::max(a.speed_mps, b.speed_mps),
+          std::max(a.accel_mps2, b.accel_mps2)};
+}
+
 constexpr double kRounding_m = 1e-6;
 
 // A ball of this radius about the object's origin holds all of it.
@@ -75,6 +80,7 @@ ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horiz
   ball.horizon_s = ToSeconds(horizon);
   ball.bend_mps2 = 0.5 * velocity_O.angular.cross(velocity_O.linear).norm();
   ball.beyond_mps = velocity_O.linear.norm();
+  ball.bound = object.BoundOnWay();
   if (object.future.empty()) return ball;
   ball.way.reserve(object.future.size() + 1);
   const StampedPose* before = &object.history.back();
@@ -107,35 +113,35 @@ std::size_t ObjectIndex::Ball::WaypointAt(Time t) const {
 }
 
 ObjectIndex::Ball::Reach ObjectIndex::Ball::DuringWay(std::size_t i, Time from, Time until,
-                                                      double inflation_mps) const {
+                                                      const ObjectGrowth& growth) const {
   const Waypoint &before = way[i], &after = way[i + 1];
   const double begins_s = ToSeconds(std::max(from, before.stamp) - before.stamp);
   const double ends_s = ToSeconds(std::min(until, after.stamp) - before.stamp);
   return {before.origin_W + 0.5 * (begins_s + ends_s) * before.velocity_W,
           radius_m + before.strays_m + 0.5 * (ends_s - begins_s) * before.speed_mps +
-              ToSeconds(until - t_k) * inflation_mps};
+              Grown(until, growth)};
 }
 
 bool ObjectIndex::Ball::MeetsOnWay(const Aabb& box_W, Time from, Time until,
-                                   double inflation_mps) const {
+                                   const ObjectGrowth& growth) const {
   for (std::size_t i = WaypointAt(from); i + 1 < way.size() && way[i].stamp <= until; ++i) {
-    if (DuringWay(i, from, until, inflation_mps).Meets(box_W)) return true;
+    if (DuringWay(i, from, until, growth).Meets(box_W)) return true;
   }
-  return until > last && During(last, until, inflation_mps).Meets(box_W);
+  return until > last && During(last, until, growth).Meets(box_W);
 }
 
 std::optional<std::array<ObjectIndex::Ball::Reach, 2>> ObjectIndex::Ball::Straight(
-    Time from, Time until, double inflation_mps) const {
+    Time from, Time until, const ObjectGrowth& growth) const {
   if (from < t_k) return std::nullopt;
   if (from < last) {
     const std::size_t i = WaypointAt(from);
     if (until > way[i + 1].stamp) return std::nullopt;
-    return {{DuringWay(i, from, from, inflation_mps), DuringWay(i, until, until, inflation_mps)}};
+    return {{DuringWay(i, from, from, growth), DuringWay(i, until, until, growth)}};
   }
   if (ToSeconds(from - last) < horizon_s && ToSeconds(until - last) > horizon_s) {
     return std::nullopt;
   }
-  return {{During(from, from, inflation_mps), During(until, until, inflation_mps)}};
+  return {{During(from, from, growth), During(until, until, growth)}};
 }
 
 // A box round everything of the object from `first` to `last`. Before t_k it moves between the
@@ -150,10 +156,10 @@ Aabb ObjectIndex::ReachOf(const MovingObject& object, const Ball& ball, Time fir
     const Time from = std::max(first, ball.t_k);
     for (std::size_t i = ball.WaypointAt(from);
          i + 1 < ball.way.size() && ball.way[i].stamp <= last; ++i) {
-      extend(ball.DuringWay(i, from, last, 0));
+      extend(ball.DuringWay(i, from, last, {}));
     }
   }
-  if (last >= ball.last) extend(ball.During(std::max(first, ball.last), last, 0));
+  if (last >= ball.last) extend(ball.During(std::max(first, ball.last), last, {}));
   return reach_W;
 }
 
@@ -178,6 +184,7 @@ ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int 
     balls_.push_back(BallOf(*object, scene.params.horizon));
     fastest_mps_ = std::max(fastest_mps_, FastestMps(*object, balls_.back()));
     oldest_t_k_ = std::min(oldest_t_k_, object->t_k());
+    widest_ = Wider(widest_, balls_.back().bound);
   }
   for (int slice = 0; slice < slices; ++slice) {
     const Time from = first + slice * slice_;
@@ -196,8 +203,9 @@ ObjectIndex::ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int 
 }
 
 // Seen from the object, the ball's centre goes straight: where its own does.
-bool ObjectIndex::MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const {
-  const auto straight = balls_[object].Straight(ball.from, ball.until, inflation_mps);
+bool ObjectIndex::MayMeet(std::size_t object, const MovingBall& ball,
+                          const ObjectGrowth& growth) const {
+  const auto straight = balls_[object].Straight(ball.from, ball.until, growth);
   if (!straight) return true;
   const auto& [begins, ends] = *straight;
   const Eigen::Vector3d apart_W = ball.from_W - begins.center_W;

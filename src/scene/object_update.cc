@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "clearway/map/ray_caster.h"
-#include "scene/track_motion.h"
+#include "scene/object_motion.h"
 
 namespace clearway {
 namespace {
@@ -23,19 +23,6 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.future.empty()) object.future_velocity_O = {};
 }
 
-// Whether nothing of the object went further than `distance_m` in the rest window before its newest
-// pose, as far as its poses tell.
-bool StayedWithin(const MovingObject& object, double distance_m) {
-  const StampedPose& last = object.history.back();
-  for (auto entry = object.history.rbegin(); entry != object.history.rend(); ++entry) {
-    const double turned_rad = entry->T_W_O.rotation.angularDistance(last.T_W_O.rotation);
-    const double moved_m = (entry->T_W_O.translation - last.T_W_O.translation).norm();
-    if (moved_m + turned_rad * object.solid->radius_m >= distance_m) return false;
-    if (last.stamp - entry->stamp >= kRestWindow) return true;
-  }
-  return false;  // not known for so long
-}
-
 // The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
 // the pose of the first.
 const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
@@ -43,6 +30,15 @@ const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
     if (entry->stamp < stamp) return &*entry;
   }
   return nullptr;
+}
+
+// After a pose that is no prediction.
+void SetMotion(MovingObject& object, const SceneParams& params) {
+  if (object.velocity_O) {
+    object.velocity_O = GoesOn(object.history, *object.velocity_O, *object.solid, params);
+  }
+  object.bound =
+      BoundOf(object.history, object.velocity_O.value_or(Twist{}), *object.solid, params);
 }
 
 // The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
@@ -97,6 +93,7 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
         VelocityBetween({clue.motion->from, Inverse(clue.motion->H_W) * T_W_O}, {stamp, T_W_O});
   }
   if (clue.pose != nullptr) object.T_B_O = Inverse(clue.pose->T_W_B) * T_W_O;
+  object.bound = BoundOf(object.history, object.velocity_O.value_or(Twist{}), Solid{}, params);
   return object;
 }
 
@@ -122,16 +119,11 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
     // Bridged to its future's end or beyond it, it goes on as it did there.
     const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
     if (outlived) object.velocity_O = object.LastVelocity();
+    object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.t_k()));
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;
   }
-  const bool moved = clue.motion != nullptr || clue.pose != nullptr;
-  if (moved && params.motion == MotionModel::kTrack && object.history.size() > 1) {
-    const Aabb& box_O = object.solid->box_O;
-    object.velocity_O =
-        VelocityOfTrack(object.history, box_O.Empty() ? Eigen::Vector3d::Zero() : box_O.Center());
-  }
-  if (moved && StayedWithin(object, params.rest_distance_m)) object.velocity_O = Twist{};
+  if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, params);
   return object;
 }
 

@@ -114,7 +114,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
       ++report.objects_dropped;
     }
   }
-  static_map_W.Update(caster_.Cast(static_map_W.grid(), cloud.Rays(), scene_.params.rays),
+  static_map_W.Update(caster_.Cast(static_map_W, cloud.Rays(), scene_.params.rays),
                       *pool_);  // II-B, II-C
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
   for (const auto& [id, clue] : clues) {  // II-D

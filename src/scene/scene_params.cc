@@ -25,6 +25,12 @@ absl::Status CheckRestDistance(double value_m) {
       absl::StrCat("rest_distance_m is ", value_m, "; it must lie between 0 and 10 m"));
 }
 
+absl::Status CheckGrazing(double value_m) {
+  if (value_m >= 0 && value_m <= 100) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("grazing_m is ", value_m, "; it must lie between 0 and 100 m"));
+}
+
 absl::Status CheckKeepDistance(double value_m) {
   if (value_m == 0 || (value_m >= 1 && std::isfinite(value_m))) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(
@@ -58,8 +64,8 @@ absl::Status Validate(const SceneParams& params) {
         Validate(params.occupancy), CheckDuration("horizon_s", params.horizon),
         CheckDuration("object_lifetime_s", params.object_lifetime),
         CheckDuration("history_s", params.history), CheckRestDistance(params.rest_distance_m),
-        CheckKeepDistance(params.keep_distance_m), CheckBox("bounds", params.bounds_W),
-        CheckBoxes("keep_out", params.keep_out_W),
+        CheckKeepDistance(params.keep_distance_m), CheckGrazing(params.rays.grazing_m),
+        CheckBox("bounds", params.bounds_W), CheckBoxes("keep_out", params.keep_out_W),
         CheckBoxes("self_filter", params.self_filter_S)}) {
     if (!status.ok()) return status;
   }

@@ -83,6 +83,7 @@ void ContentHasher::Add(const SceneParams& params) {
   }
   Add(params.rays.max_range_m);
   Add(std::int64_t{params.rays.discretize});
+  Add(params.rays.grazing_m);
   Add(static_cast<std::int64_t>(params.solid));
   Add(std::int64_t{params.clear_objects_by_rays});
   for (Duration duration : {params.horizon, params.object_lifetime, params.history}) {
@@ -101,6 +102,9 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(object.map_O);
   Add(object.history);
   Add(object.velocity_O);
+  for (const double value : {object.bound.at_m, object.bound.speed_mps, object.bound.accel_mps2}) {
+    Add(value);
+  }
   Add(object.T_B_O);
   Add(object.first_seen);
   Add(object.last_seen);

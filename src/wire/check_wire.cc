@@ -36,6 +36,7 @@ void Write(const CheckOptions& options, v1::CheckOptions* proto) {
   for (const Aabb& box : options.known_free_W) Write(box, proto->add_known_free_world());
   proto->set_padding_m(options.padding_m);
   proto->set_inflation_mps(options.inflation_mps);
+  proto->set_bound_multiple(options.bound_multiple);
   proto->set_inflate_moving_only(options.inflate_moving_only);
   for (ObjectId id : options.ignored_objects) proto->add_ignored_object_ids(id);
   for (const auto& [link, object] : options.allowed_contacts) {
@@ -65,6 +66,7 @@ absl::StatusOr<CheckOptions> ReadCheckOptions(const std::string& field,
   }
   options.padding_m = read.NotNegative("padding_m", proto.padding_m());
   options.inflation_mps = read.NotNegative("inflation_mps", proto.inflation_mps());
+  options.bound_multiple = read.NotNegative("bound_multiple", proto.bound_multiple());
   options.inflate_moving_only = proto.inflate_moving_only();
   options.ignored_objects.assign(proto.ignored_object_ids().begin(),
                                  proto.ignored_object_ids().end());

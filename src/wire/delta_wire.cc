@@ -66,6 +66,7 @@ class DeltaWriter {
       Append(entry.T_W_O, proto->mutable_history_world_from_object());
     }
     if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
+    if (!(object.bound == PositionBound{})) Write(object.bound, proto->mutable_bound());
     if (object.T_B_O) Write(*object.T_B_O, proto->mutable_box_from_object());
     proto->set_first_seen_ns(ToNanoseconds(object.first_seen));
     proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
@@ -102,6 +103,7 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   if (proto.has_velocity_object()) {
     object.velocity_O = read.ReadTwist("velocity_object", proto.velocity_object());
   }
+  if (proto.has_bound()) object.bound = read.ReadBound("bound", proto.bound());
   if (proto.has_box_from_object()) {
     object.T_B_O = read.ReadPose("box_from_object", true, proto.box_from_object());
   }

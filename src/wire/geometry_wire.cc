@@ -39,6 +39,12 @@ void Write(const Twist& twist, v1::Twist* proto) {
   Write(twist.linear, proto->mutable_linear_mps());
 }
 
+void Write(const PositionBound& bound, v1::PositionBound* proto) {
+  proto->set_at_m(bound.at_m);
+  proto->set_speed_mps(bound.speed_mps);
+  proto->set_accel_mps2(bound.accel_mps2);
+}
+
 void Write(const Aabb& box, v1::AxisAlignedBox* proto) {
   Write(box.min, proto->mutable_min_m());
   Write(box.max, proto->mutable_max_m());
@@ -118,6 +124,12 @@ Pose FieldReader::ReadPose(const std::string& field, bool present, const v1::Pos
   pose.translation = ToVector(proto.translation_m());
   CheckPose(field, pose);
   return ok() ? pose : Pose{};
+}
+
+PositionBound FieldReader::ReadBound(const std::string& field, const v1::PositionBound& proto) {
+  return {NotNegative(field + ".at_m", proto.at_m()),
+          NotNegative(field + ".speed_mps", proto.speed_mps()),
+          NotNegative(field + ".accel_mps2", proto.accel_mps2())};
 }
 
 Twist FieldReader::ReadTwist(const std::string& field, const v1::Twist& proto) {

@@ -20,6 +20,7 @@ namespace clearway {
 void Write(const Eigen::Vector3d& vector, v1::Vector3* proto);
 void Write(const Pose& pose, v1::Pose* proto);
 void Write(const Twist& twist, v1::Twist* proto);
+void Write(const PositionBound& bound, v1::PositionBound* proto);
 void Write(const Aabb& box, v1::AxisAlignedBox* proto);
 void Append(const Pose& pose, v1::PoseArray* proto);
 void Write(std::span<const StampedPose> poses, v1::TimedPoses* proto);
@@ -49,6 +50,7 @@ class FieldReader {
   Eigen::Vector3d Vector(const std::string& field, bool present, const v1::Vector3& proto);
   Pose ReadPose(const std::string& field, bool present, const v1::Pose& proto);
   Twist ReadTwist(const std::string& field, const v1::Twist& proto);
+  PositionBound ReadBound(const std::string& field, const v1::PositionBound& proto);
   Aabb Box(const std::string& field, bool present, const v1::AxisAlignedBox& proto);
   // Exactly `count` poses.
   std::vector<Pose> Poses(const std::string& field, const v1::PoseArray& proto, std::size_t count);

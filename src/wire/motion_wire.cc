@@ -78,6 +78,7 @@ void Write(const MotionReply& reply, v1::CheckMotionsResponse* proto) {
   Write(Versioned{reply.version, reply.stamp}, proto->mutable_scene());
   proto->set_horizon_ns(reply.horizon.count());
   proto->set_inflation_mps(reply.inflation_mps);
+  proto->set_bound_multiple(reply.bound_multiple);
   for (const MotionAnswer& answer : reply.answers) {
     const MotionWitness witness = answer.witness.value_or(MotionWitness{});
     const VoxelKey voxel = witness.voxel.value_or(VoxelKey{});
@@ -101,7 +102,8 @@ absl::StatusOr<MotionReply> ReadMotionReply(const v1::CheckMotionsResponse& prot
   }
   const Versioned scene = ReadVersion(proto.scene());
   MotionReply reply{
-      scene.version, scene.stamp, Duration(proto.horizon_ns()), proto.inflation_mps(), {}};
+      scene.version,          scene.stamp, Duration(proto.horizon_ns()), proto.inflation_mps(),
+      proto.bound_multiple(), {}};
   reply.answers.resize(motions);
   for (int m = 0; m < proto.statuses_size(); ++m) {
     MotionAnswer& answer = reply.answers[m];

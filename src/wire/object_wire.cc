@@ -30,6 +30,7 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_pose_stamp_ns(ToNanoseconds(object.t_k));
   if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
   proto->set_speed_mps(object.speed_mps);
+  if (object.bound) Write(*object.bound, proto->mutable_bound());
   if (!object.box_O.Empty()) Write(object.box_O, proto->mutable_box_object());
   if (!object.box_W.Empty()) Write(object.box_W, proto->mutable_box_world());
   proto->set_observed_voxels(object.observed_voxels);
@@ -55,6 +56,7 @@ absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
     object.velocity_O = read.ReadTwist("velocity_object", proto.velocity_object());
   }
   object.speed_mps = proto.speed_mps();
+  if (proto.has_bound()) object.bound = read.ReadBound("bound", proto.bound());
   if (proto.has_box_object()) object.box_O = read.Box("box_object", true, proto.box_object());
   if (proto.has_box_world()) object.box_W = read.Box("box_world", true, proto.box_world());
   object.observed_voxels = proto.observed_voxels();

@@ -168,6 +168,7 @@ void Write(const PlanOutcome& outcome, v1::PlanResponse* proto) {
   Write(Versioned{outcome.version, outcome.stamp}, proto->mutable_scene());
   proto->set_horizon_ns(outcome.horizon.count());
   proto->set_inflation_mps(outcome.inflation_mps);
+  proto->set_bound_multiple(outcome.bound_multiple);
   for (const auto& [status, on_the_wire] : kStatuses) {
     if (status == outcome.status) proto->set_status(on_the_wire);
   }
@@ -184,6 +185,7 @@ PlanOutcome ReadOutcome(const v1::PlanResponse& proto) {
   outcome.stamp = scene.stamp;
   outcome.horizon = Duration(proto.horizon_ns());
   outcome.inflation_mps = proto.inflation_mps();
+  outcome.bound_multiple = proto.bound_multiple();
   for (const auto& [status, on_the_wire] : kStatuses) {
     if (on_the_wire == proto.status()) outcome.status = status;
   }

@@ -65,6 +65,7 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_occupied_threshold(params.occupancy.occupied);
   proto->set_max_range_m(params.rays.max_range_m);
   proto->set_discretize(params.rays.discretize);
+  proto->set_grazing_m(params.rays.grazing_m);
   proto->set_solid(params.solid == SolidMode::kVoxels ? v1::SOLID_MODE_VOXELS
                                                       : v1::SOLID_MODE_CONVEX_HULL);
   proto->set_clear_objects_by_rays(params.clear_objects_by_rays);
@@ -88,7 +89,7 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.object_resolution_m = proto.object_resolution_m();
   params.occupancy = {proto.probability_hit(), proto.probability_miss(), proto.clamp_min(),
                       proto.clamp_max(), proto.occupied_threshold()};
-  params.rays = {proto.max_range_m(), proto.discretize()};
+  params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m()};
   read.Require(
       proto.solid() == v1::SOLID_MODE_CONVEX_HULL || proto.solid() == v1::SOLID_MODE_VOXELS,
       "solid", "is not a known mode");

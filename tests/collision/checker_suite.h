@@ -23,14 +23,14 @@ REGISTER_TYPED_TEST_SUITE_P(
     BeyondTheHorizonAllThatIsInReachBlocks, OccupiedComesBeforeBeyondHorizonBeforeUnknown,
     TheInsideOfAnObjectIsItsHullOrItsVoxelsAlone, GivenObjectsAreTheirShape,
     StatedFuturesAreFollowed, MotionsAreCheckedAgainstStatedFutures, PaddingGrowsTheRobot,
-    InflationGrowsWithTheTimeSinceAnObjectWasPlaced, InflationMaySpareWhatIsKnownToRest,
-    IgnoredObjectsAreNotThere, AllowedContactsHoldForTheirLinkAlone,
-    TheLowestLinkThenObjectIsReported, ClearanceIsTheDistanceToWhatBlocks,
-    ClearanceEndsWhereItWasAskedTo, EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid,
-    PosesOfShapesInTheirLinkCount, AnswersComeInTheOrderOfTheStates,
-    AnswersAreThoseOfTheLocalChecker, ManyThreadsGetTheSameAnswers, RefusesBatchesThatDoNotFit,
-    RefusesOptionsOutOfRange, MotionsAreAnsweredAsByTheLocalChecker,
-    MotionsAreProvedFreeOrShowTheirFirstContact, NoMotionsAreAValidQuestion,
-    RefusesMotionsThatDoNotFit);
+    InflationGrowsWithTheTimeSinceAnObjectWasPlaced, BoundsGrowWithTheTimeSinceAnObjectsLastPose,
+    InflationMaySpareWhatIsKnownToRest, IgnoredObjectsAreNotThere,
+    AllowedContactsHoldForTheirLinkAlone, TheLowestLinkThenObjectIsReported,
+    ClearanceIsTheDistanceToWhatBlocks, ClearanceEndsWhereItWasAskedTo,
+    EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid, PosesOfShapesInTheirLinkCount,
+    AnswersComeInTheOrderOfTheStates, AnswersAreThoseOfTheLocalChecker,
+    ManyThreadsGetTheSameAnswers, RefusesBatchesThatDoNotFit, RefusesOptionsOutOfRange,
+    MotionsAreAnsweredAsByTheLocalChecker, MotionsAreProvedFreeOrShowTheirFirstContact,
+    NoMotionsAreAValidQuestion, RefusesMotionsThatDoNotFit);
 
 }  // namespace clearway

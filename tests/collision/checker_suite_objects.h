@@ -143,6 +143,20 @@ TYPED_TEST_P(CheckerSuite, InflationGrowsWithTheTimeSinceAnObjectWasPlaced) {
   ExpectAnswer(this->Ask(*dut, At(-0.34, 0, 0, -5), options), SpaceStatus::kOccupied, 0, 1);
 }
 
+TYPED_TEST_P(CheckerSuite, BoundsGrowWithTheTimeSinceAnObjectsLastPose) {
+  const auto dut = this->Make(this->Room()
+                                  .Object(1, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{})
+                                  .Bound({0.02, 0.04, 0.08}),
+                              this->Ball());
+  CheckOptions options;
+  options.bound_multiple = 2;  // 0.04 m at once, 0.2 m after a second
+  ExpectAnswer(this->Ask(*dut, At(-0.38, 0, 0, 0), options), SpaceStatus::kOccupied, 0, 1);
+  ExpectAnswer(this->Ask(*dut, At(-0.40, 0, 0, 0), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.54, 0, 0, 1), options), SpaceStatus::kOccupied, 0, 1);
+  ExpectAnswer(this->Ask(*dut, At(-0.56, 0, 0, 1), options), SpaceStatus::kFree, -1, 0);
+  ExpectAnswer(this->Ask(*dut, At(-0.36, 0, 0, -5), options), SpaceStatus::kFree, -1, 0);
+}
+
 TYPED_TEST_P(CheckerSuite, InflationMaySpareWhatIsKnownToRest) {
   const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
   const std::vector<StampedPose> here{{kTestStart, Pose{}}};

@@ -93,6 +93,7 @@ ScenePtr RandomWorld::Scene() {
     world.Object(id, Blob(),
                  {{TestTime(stamp_s - 1), first}, {TestTime(stamp_s), first * Exp(velocity)}},
                  id == 40 ? std::nullopt : std::optional(velocity));
+    if (Below(2)) world.Bound({Uniform(0, 0.1), Uniform(0, 0.1), Uniform(0, 0.2)});
     if (id == 7 && Below(2)) world.Future(Future(stamp_s));
   }
   const Twist velocity{Point({{-1, -1, -1}, {1, 1, 1}}), Point({{-1, -1, -1}, {1, 1, 1}})};
@@ -160,6 +161,7 @@ CheckOptions RandomWorld::Options(const Robot& robot) {
   }
   if (Below(2)) options.padding_m = Uniform(0, 0.2);
   if (Below(2)) options.inflation_mps = Uniform(0, 0.1);
+  if (Below(2)) options.bound_multiple = Uniform(0, 1.5);
   options.inflate_moving_only = Below(2);
   if (Below(3) == 0) options.ignored_objects = {3, 17};
   if (Below(3) == 0) {

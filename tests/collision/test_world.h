@@ -70,7 +70,13 @@ class TestWorld {
         std::make_shared<const MovingObject>(WithFuture(std::move(object), std::move(future))));
     return *this;
   }
-  // Of the object that was added last.
+  // Of the object that was added last, as what follows.
+  TestWorld& Bound(const PositionBound& bound) {
+    MovingObject object = *scene_.objects.back();
+    object.bound = bound;
+    scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
+    return *this;
+  }
   TestWorld& Future(std::vector<StampedPose> future) {
     scene_.objects.back() =
         std::make_shared<const MovingObject>(WithFuture(*scene_.objects.back(), std::move(future)));

@@ -43,7 +43,7 @@ class DiscChecker : public StateChecker {
   absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& motions,
                                            const MotionOptions& options) const override {
     ++calls_;
-    MotionReply reply{version(), stamp(), {}, options.check.inflation_mps, {}};
+    MotionReply reply{version(), stamp(), {}, options.check.inflation_mps, 0, {}};
     std::size_t knot = 0;
     for (const std::size_t count : motions.knot_counts) {
       reply.answers.push_back(AnswerMotion(motions, knot, knot + count, options));

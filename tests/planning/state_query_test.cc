@@ -30,8 +30,12 @@ class RecordingChecker : public StateChecker {
     ++calls;
     MotionAnswer free;
     free.status = SpaceStatus::kFree;
-    return MotionReply{
-        answer_version, Time(), {}, 0, std::vector<MotionAnswer>(motions.knot_counts.size(), free)};
+    return MotionReply{answer_version,
+                       Time(),
+                       {},
+                       0,
+                       0,
+                       std::vector<MotionAnswer>(motions.knot_counts.size(), free)};
   }
   const Robot& robot() const override { return robot_; }
   std::uint64_t version() const override { return 7; }

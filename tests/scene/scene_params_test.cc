@@ -25,6 +25,8 @@ TEST(SceneParams, RefusesEachFieldByName) {
   ExpectRefused([](auto& p) { p.occupancy.hit = 2; }, "occupancy.hit");
   ExpectRefused([](auto& p) { p.rays.max_range_m = 0; }, "max_range_m");
   ExpectRefused([](auto& p) { p.rays.max_range_m = INFINITY; }, "max_range_m");
+  ExpectRefused([](auto& p) { p.rays.grazing_m = -1; }, "grazing_m");
+  ExpectRefused([](auto& p) { p.rays.grazing_m = NAN; }, "grazing_m");
   ExpectRefused([](auto& p) { p.horizon = std::chrono::seconds(-1); }, "horizon_s");
   ExpectRefused([](auto& p) { p.object_lifetime = std::chrono::hours(25); }, "object_lifetime_s");
   ExpectRefused([](auto& p) { p.rest_distance_m = -0.1; }, "rest_distance_m");

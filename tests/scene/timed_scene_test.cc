@@ -101,7 +101,7 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
     testing_support::ChangeGivenRandomly(builder, random);
     const ScenePtr scene = builder.Publish();
     const double first_s = random.Uniform(-2, 1), last_s = first_s + random.Uniform(0, 2);
-    const double inflation_mps = random.Uniform(0, 1);
+    const ObjectGrowth growth{random.Uniform(0, 1), random.Uniform(0, 1)};
     const ObjectIndex dut(*scene, scene->stamp + FromSeconds(first_s),
                           scene->stamp + FromSeconds(last_s), 1 + i % 5);
     for (int k = 0; k < 200; ++k) {
@@ -114,13 +114,15 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
       const double begins = random.Uniform(0, 1);
       std::vector<std::size_t> visited;
       dut.ForEachNear(box_W, time - FromSeconds(begins * long_s),
-                      time + FromSeconds((1 - begins) * long_s), inflation_mps,
+                      time + FromSeconds((1 - begins) * long_s), growth,
                       [&](std::size_t object) { visited.push_back(object); });
       EXPECT_TRUE(std::is_sorted(visited.begin(), visited.end()));
       const SceneAtTime placed(*scene, time);
       for (std::size_t object = 0; object < scene->objects.size(); ++object) {
+        const MovingObject& here = *scene->objects[object];
         const double grown_m =
-            inflation_mps * std::max(0.0, ToSeconds(time - scene->objects[object]->t_k()));
+            growth.mps * std::max(0.0, ToSeconds(time - here.t_k())) +
+            growth.bound_multiple * here.BoundOnWay().At(ToSeconds(time - here.LastPose().stamp));
         const bool found = std::binary_search(visited.begin(), visited.end(), object);
         const bool meets = MeetsBox(placed.objects()[object], box_W, grown_m, random);
         EXPECT_TRUE(found || !meets) << "object " << object;
@@ -195,8 +197,8 @@ TEST(ObjectIndex, FollowsALongFuture) {
   ASSERT_TRUE(builder.AddObject(given).ok());
   const ScenePtr scene = builder.Publish();
   const ObjectIndex dut(*scene, Time{}, Time{} + FromSeconds(60), 8);
-  EXPECT_GT(dut.fastest_mps(), 1);
-  EXPECT_LT(dut.fastest_mps(), 1.6 + 0.5 * std::numbers::pi);
+  EXPECT_GT(dut.FastestMps(Time{}, {}), 1);
+  EXPECT_LT(dut.FastestMps(Time{}, {}), 1.6 + 0.5 * std::numbers::pi);
   int spared = 0, met = 0;
   for (int k = 0; k <= 2000; ++k) {
     const Time time = Time{} + FromSeconds(0.4 * k);
@@ -204,7 +206,7 @@ TEST(ObjectIndex, FollowsALongFuture) {
     const Eigen::Vector3d p_W = PredictPose(*scene->objects[0], time, {}).T_W_O.translation;
     const auto visits = [&](const Eigen::Vector3d& place_W) {
       int count = 0;
-      dut.ForEachNear({place_W, place_W}, time - half, time + half, 0,
+      dut.ForEachNear({place_W, place_W}, time - half, time + half, {},
                       [&](std::size_t) { ++count; });
       return count;
     };
@@ -213,9 +215,9 @@ TEST(ObjectIndex, FollowsALongFuture) {
     spared += visits(p_W + Eigen::Vector3d(0, 0, 1)) == 0;
     EXPECT_TRUE(visits(p_W + Eigen::Vector3d(4, 4, 0)) == 0 || !known) << k;
     MovingBall ball{time - half, time + half, p_W, p_W, 0.1};
-    EXPECT_TRUE(dut.MayMeet(0, ball, 0));
+    EXPECT_TRUE(dut.MayMeet(0, ball, {}));
     ball.from_W = ball.until_W = p_W + Eigen::Vector3d(0, 0, 1.5);
-    EXPECT_FALSE(half == Duration::zero() && dut.MayMeet(0, ball, 0)) << k;
+    EXPECT_FALSE(half == Duration::zero() && dut.MayMeet(0, ball, {})) << k;
   }
   EXPECT_EQ(met, 2001);
   EXPECT_GT(spared, 1200);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -20,6 +21,11 @@ class Random {
   // In [low, high].
   int Integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1));
+  }
+  // Of variance 1 (Box and Muller).
+  double Normal() {
+    const double u = Uniform(1e-12, 1), v = Uniform(0, 2 * std::numbers::pi);
+    return std::sqrt(-2 * std::log(u)) * std::cos(v);
   }
   Eigen::Vector3d Vector(double half_extent) {
     const double x = Uniform(-half_extent, half_extent), y = Uniform(-half_extent, half_extent);

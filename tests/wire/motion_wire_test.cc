@@ -72,6 +72,7 @@ TEST(MotionWire, RepliesComeBack) {
                           TimeFromNanoseconds(6),
                           Duration(7),
                           0.25,
+                          1.5,
                           {{SpaceStatus::kFree, until, std::nullopt},
                            {SpaceStatus::kUnresolved, from, std::nullopt},
                            {SpaceStatus::kOccupied, from, {{from, until, 1, 3, {{-1, 2, -3}}}}},
@@ -84,6 +85,7 @@ TEST(MotionWire, RepliesComeBack) {
   EXPECT_EQ(dut->stamp, reply.stamp);
   EXPECT_EQ(dut->horizon, reply.horizon);
   EXPECT_EQ(dut->inflation_mps, 0.25);
+  EXPECT_EQ(dut->bound_multiple, 1.5);
   for (std::size_t m = 0; m < 4; ++m) {
     const MotionAnswer &answer = dut->answers[m], &expected = reply.answers[m];
     EXPECT_EQ(answer.status, expected.status);
@@ -100,7 +102,7 @@ TEST(MotionWire, RepliesComeBack) {
 
 TEST(MotionWire, AReplyOfTheWrongLengthIsNoAnswer) {
   v1::CheckMotionsResponse good;
-  Write(MotionReply{1, Time{}, {}, 0, {MotionAnswer{}}}, &good);
+  Write(MotionReply{1, Time{}, {}, 0, 0, {MotionAnswer{}}}, &good);
   EXPECT_TRUE(ReadMotionReply(good, 1).ok());
   EXPECT_TRUE(absl::IsInternal(ReadMotionReply(good, 2).status()));
   v1::CheckMotionsResponse bad = good;

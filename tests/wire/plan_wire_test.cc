@@ -89,6 +89,7 @@ TEST(PlanWire, OutcomesComeBack) {
     outcome.stamp = TimeFromNanoseconds(8);
     outcome.horizon = Duration(9);
     outcome.inflation_mps = 0.25;
+    outcome.bound_multiple = 1.5;
     outcome.status = status;
     outcome.blocker.status = SpaceStatus::kOccupied;
     outcome.blocker.link = 2;
@@ -100,6 +101,7 @@ TEST(PlanWire, OutcomesComeBack) {
     EXPECT_EQ(dut.stamp, outcome.stamp);
     EXPECT_EQ(dut.horizon, outcome.horizon);
     EXPECT_EQ(dut.inflation_mps, 0.25);
+    EXPECT_EQ(dut.bound_multiple, 1.5);
     EXPECT_EQ(dut.status, status);
     EXPECT_EQ(dut.blocker.status, SpaceStatus::kOccupied);
     EXPECT_EQ(dut.blocker.link, 2);

@@ -86,6 +86,7 @@ TEST(CheckWire, OptionsComeBack) {
   options.known_free_W = {{{0, 0, 0}, {1, 2, 3}}};
   options.padding_m = 0.1;
   options.inflation_mps = 0.2;
+  options.bound_multiple = 1.5;
   options.inflate_moving_only = true;
   options.ignored_objects = {3, 4};
   options.allowed_contacts = {{0, 5}, {1, 0}};
@@ -100,6 +101,7 @@ TEST(CheckWire, OptionsComeBack) {
   EXPECT_EQ(dut->known_free_W, options.known_free_W);
   EXPECT_EQ(dut->padding_m, 0.1);
   EXPECT_EQ(dut->inflation_mps, 0.2);
+  EXPECT_EQ(dut->bound_multiple, 1.5);
   EXPECT_TRUE(dut->inflate_moving_only);
   EXPECT_EQ(dut->ignored_objects, options.ignored_objects);
   EXPECT_EQ(dut->allowed_contacts, options.allowed_contacts);
@@ -196,6 +198,7 @@ TEST(SceneWire, ParamsComeBack) {
   params.object_lifetime = std::chrono::seconds(2);
   params.history = std::chrono::seconds(3);
   params.rest_distance_m = 0.2;
+  params.rays.grazing_m = 4;
   params.keep_distance_m = 40;
   params.bounds_W = {{-1, -2, -3}, {4, 5, 6}};
   params.keep_out_W = {{{0, 0, 0}, {1, 1, 1}}};

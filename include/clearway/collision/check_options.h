@@ -8,7 +8,7 @@
 #include "absl/status/status.h"
 #include "clearway/collision/robot.h"
 #include "clearway/geometry/aabb.h"
-#include "clearway/scene/frame.h"
+#include "clearway/scene/moving_object.h"
 
 namespace clearway {
 
@@ -37,6 +37,9 @@ struct CheckOptions {
   double padding_m = 0;
   // Added round each moving object, solid or swept ball, per second after its t_k.
   double inflation_mps = 0;
+  // Added likewise: so many times the distance from where an object is predicted that its centre
+  // keeps in 95 of 100 cases (PositionBound).
+  double bound_multiple = 0;
   // Leave objects that are known to be at rest as they are; without a known motion they grow too.
   bool inflate_moving_only = false;
 
@@ -48,13 +51,14 @@ struct CheckOptions {
   // If set, also the clearance, searched up to this distance.
   std::optional<double> clearance_up_to_m;
 
+  ObjectGrowth growth() const { return {inflation_mps, bound_multiple}; }
   bool NeedsUnknownFraction() const {
     return with_unknown_fraction || unknown == UnknownPolicy::kTolerated;
   }
 };
 
 // INVALID_ARGUMENT naming the field and the limit: lengths are at most 100 km, inflation 1 km/s,
-// ids of ignored objects at least 1, links those of the robot.
+// bounds are taken 100 times,// ids of ignored objects at least 1, links those of the robot.
 absl::Status Validate(const CheckOptions& options, const Robot& robot);
 
 }  // namespace clearway

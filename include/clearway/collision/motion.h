@@ -60,12 +60,12 @@ struct MotionAnswer {
 };
 
 // A proof holds for this version, with predictions within the horizon, and with the options'
-// inflation.
+// inflation and multiple of the objects' bounds.
 struct MotionReply {
   std::uint64_t version = 0;
   Time stamp;
   Duration horizon{};
-  double inflation_mps = 0;
+  double inflation_mps = 0, bound_multiple = 0;
   std::vector<MotionAnswer> answers;  // one per motion, in their order
 };
 

@@ -89,7 +89,7 @@ struct PlanOutcome {
   std::uint64_t version = 0;
   Time stamp;
   Duration horizon{};  // zero if nothing was proved
-  double inflation_mps = 0;
+  double inflation_mps = 0, bound_multiple = 0;
   PlanStatus status = PlanStatus::kNotFound;
   StateAnswer blocker;  // what is in the way, if the start or the goal is blocked
 };

@@ -16,6 +16,11 @@ struct RayOptions {
   // One ray per distinct end voxel, to its centre (OctoMap's `discretize`), instead of one per
   // point.
   bool discretize = false;
+  // A ray that ends on a surface at a grazing angle runs for long through the free half of the
+  // voxels that hold the surface. Of what it passes in so many metres before its end and in one
+  // layer of voxels with that, along any axis, what is occupied stays as it is. Metres; 0: it
+  // counts as traversed, as in OctoMap.
+  double grazing_m = 0;
   bool operator==(const RayOptions&) const = default;
 };
 
@@ -50,6 +55,10 @@ RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit);
+// The same while visit(VoxelKey) is true.
+template <class Visit>
+void WalkRayWhile(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
+                  Visit&& visit);
 
 // Where a ray ends after RayOptions are applied to it.
 struct LimitedRay {
@@ -64,10 +73,18 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit) {
+  WalkRayWhile(grid, origin, end, [&](VoxelKey key) {
+    visit(key);
+    return true;
+  });
+}
+
+template <class Visit>
+void WalkRayWhile(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
+                  Visit&& visit) {
   RayStart ray = StartRay(grid, origin, end);
   VoxelKey& key = ray.key;
-  if (key == ray.end) return;
-  visit(key);
+  if (key == ray.end || !visit(key)) return;
   std::int32_t* const index[3] = {&key.x, &key.y, &key.z};
   auto& t_max = ray.t_max;
   while (true) {
@@ -78,8 +95,7 @@ void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::
     if (key == ray.end) return;
     // Rounding made the ray miss its end voxel: OctoMap stops where the segment's length is used
     // up.
-    if (std::min({t_max[0], t_max[1], t_max[2]}) > ray.length_m) return;
-    visit(key);
+    if (std::min({t_max[0], t_max[1], t_max[2]}) > ray.length_m || !visit(key)) return;
   }
 }
 

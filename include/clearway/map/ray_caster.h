@@ -6,6 +6,7 @@
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/ray.h"
 #include "clearway/map/scan_update.h"
+#include "clearway/map/voxel_map.h"
 
 namespace clearway {
 
@@ -19,8 +20,12 @@ class RayCaster {
   RayCaster& operator=(RayCaster&&) noexcept;
 
   // The update of a map by a cloud: the same voxels as OctoMap's computeUpdate makes of it,
-  // whatever the number of threads. All points must be addressable in the grid.
+  // whatever the number of threads; grazing_m is not looked at. All points must be addressable in
+  // the grid.
   ScanUpdate Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
+  // The same of that map, which the scan is going to update, with what RayOptions::grazing_m asks
+  // for.
+  ScanUpdate Cast(const VoxelMap& map, const RayCloud& cloud, const RayOptions& options);
 
  private:
   struct Impl;

@@ -42,6 +42,10 @@ struct BlockMask {
     for (int z = 0; z < 8; ++z) words[z] |= other.words[z];
     return *this;
   }
+  BlockMask& operator&=(const BlockMask& other) {
+    for (int z = 0; z < 8; ++z) words[z] &= other.words[z];
+    return *this;
+  }
   // Keeps the bits that `other` does not have.
   BlockMask& Subtract(const BlockMask& other) {
     for (int z = 0; z < 8; ++z) words[z] &= ~other.words[z];

@@ -1,4 +1,4 @@
-// How far predicted objects are from where they really come.
+// How far predicted objects are from where they really come, and whether that was foreseen.
 #pragma once
 
 #include <map>
@@ -14,10 +14,20 @@ namespace clearway {
 struct PredictionErrors {
   Duration ahead;
   std::vector<double> errors_m;  // ascending
+  // The bounds that were stated of them (PositionBound), ascending too, and how many kept within.
+  std::vector<double> bounds_m;
+  std::size_t within = 0;
 
   // The error that this share (0 to 1) of the predictions does not exceed; NaN without any.
   double Quantile(double share) const;
   double Median() const { return Quantile(0.5); }
+  double MedianBound() const;
+  // Share of those within their bounds; NaN without any.
+  double Within() const {
+    return static_cast<double>(within) / static_cast<double>(errors_m.size());
+  }
+
+  PredictionErrors& operator+=(const PredictionErrors& other);  // of the same time ahead
 };
 
 // Collects prediction errors over the versions of a scene. An error is the distance between the
@@ -37,7 +47,7 @@ class PredictionScore {
  private:
   Truth truth_;
   std::vector<Duration> ahead_;
-  std::map<ObjectId, std::vector<std::vector<double>>> errors_m_;
+  std::map<ObjectId, std::vector<PredictionErrors>> errors_;  // in any order
 };
 
 }  // namespace clearway

@@ -41,6 +41,27 @@ struct Solid {
 std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O);
 std::shared_ptr<const Solid> SolidOf(const Shape& shape);
 
+// How far from where it is predicted an object's centre (that of its solid's box) is at most, in 95
+// of 100 cases: at_m + speed_mps h + accel_mps2 h^2 / 2, h seconds after its last pose. None of
+// the three is below 0, so that it never shrinks.
+struct PositionBound {
+  double at_m = 0, speed_mps = 0, accel_mps2 = 0;
+
+  // 0 before the last pose.
+  double At(double seconds) const {
+    return seconds < 0 ? 0 : at_m + seconds * (speed_mps + 0.5 * seconds * accel_mps2);
+  }
+  // In m/s.
+  double Rate(double seconds) const { return speed_mps + seconds * accel_mps2; }
+  bool operator==(const PositionBound&) const = default;
+};
+
+// By how much objects are grown at a time to come.
+struct ObjectGrowth {
+  double mps = 0;             // times the seconds since their t_k
+  double bound_multiple = 0;  // times their PositionBound
+};
+
 // A moving object as of one scene version. Immutable once published; any thread may read it.
 struct MovingObject {
   ObjectId id = 0;
@@ -63,6 +84,8 @@ struct MovingObject {
   // Constant body-frame velocity of its motion (rad/s, m/s at O's origin), of the last one or of
   // its track (MotionModel); none while no motion is known.
   std::optional<Twist> velocity_O;
+  // Of its predictions by that. Of a given object none, as long as no frame moves it.
+  PositionBound bound;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;
 
@@ -86,6 +109,8 @@ struct MovingObject {
   Twist LastVelocity() const {
     return future.empty() ? velocity_O.value_or(Twist{}) : future_velocity_O;
   }
+  // How far from where it is predicted it may be: where a future is stated, nowhere else.
+  PositionBound BoundOnWay() const { return future.empty() ? bound : PositionBound{}; }
   // The two poses in turn, known or stated, between which `t` lies: before->stamp <= t <
   // after->stamp. `t` must lie between the first of them all and the last.
   struct Interval {

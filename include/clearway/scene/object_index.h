@@ -32,22 +32,25 @@ class ObjectIndex {
   ObjectIndex(const SceneSnapshot& scene, Time first, Time last, int slices = 1);
 
   // Calls visit(i) for the objects scene.objects[i] that may meet the box at a time from `from` to
-  // `until` if they are grown by inflation_mps times the seconds since their t_k, in ascending
-  // order; there may be a few that do not, and more of them at times outside the interval.
+  // `until` if they are grown, in ascending order; there may be a few that do not, and more of them
+  // at times outside the interval.
   template <class Visit>
-  void ForEachNear(const Aabb& box_W, Time from, Time until, double inflation_mps,
+  void ForEachNear(const Aabb& box_W, Time from, Time until, const ObjectGrowth& growth,
                    Visit&& visit) const;
   // The same at one time, as they are.
   template <class Visit>
   void ForEachNear(const Aabb& box_W, Time time, Visit&& visit) const {
-    ForEachNear(box_W, time, time, 0, visit);
+    ForEachNear(box_W, time, time, {}, visit);
   }
 
   // Whether the object, grown likewise, may meet the ball on its way.
-  bool MayMeet(std::size_t object, const MovingBall& ball, double inflation_mps) const;
+  bool MayMeet(std::size_t object, const MovingBall& ball, const ObjectGrowth& growth) const;
 
-  // No point of any object is faster from its t_k on, but for jumps between stated poses.
-  double fastest_mps() const { return fastest_mps_; }
+  // No point of any object is faster from its t_k until then, but for jumps between stated poses,
+  // if objects grow meanwhile.
+  double FastestMps(Time until, const ObjectGrowth& growth) const {
+    return fastest_mps_ + growth.mps + growth.bound_multiple * widest_.Rate(SinceOldest(until));
+  }
 
  private:
   static constexpr int kCells = 64;
@@ -66,7 +69,7 @@ class ObjectIndex {
   // to the next, and from the last pose on until the horizon; the object's origin strays from it
   // as it goes along a screw.
   struct Ball {
-    Time t_k;                              // inflation counts from here
+    Time t_k;                              // growth in m/s counts from here
     std::vector<Waypoint> way;             // from t_k to the last pose; empty without a future
     Time last;                             // of the last pose
     Eigen::Vector3d origin_W, velocity_W;  // m/s, of the origin at the last pose
@@ -74,6 +77,7 @@ class ObjectIndex {
     double horizon_s;
     double bend_mps2;  // the origin strays by this times the square of the time
     double beyond_mps;
+    PositionBound bound;  // from the last pose on
 
     // Where it is in the middle of a time from the last pose on, or for half of it before and
     // after. The origin is never faster than beyond the horizon.
@@ -85,25 +89,30 @@ class ObjectIndex {
         return (nearest_W - center_W).squaredNorm() <= radius_m * radius_m;
       }
     };
-    Reach During(Time from, Time until, double inflation_mps) const {
+    double Grown(Time t, const ObjectGrowth& growth) const {
+      return growth.mps * std::max(0.0, ToSeconds(t - t_k)) +
+             growth.bound_multiple * bound.At(ToSeconds(t - last));
+    }
+    Reach During(Time from, Time until, const ObjectGrowth& growth) const {
       const double half_s = 0.5 * ToSeconds(until - from);
       const double since_s = ToSeconds(from - last) + half_s;
       const double ahead_s = std::min(since_s, horizon_s);
       return {origin_W + ahead_s * velocity_W, radius_m + ahead_s * ahead_s * bend_mps2 +
                                                    (since_s - ahead_s + half_s) * beyond_mps +
-                                                   ToSeconds(until - t_k) * inflation_mps};
+                                                   Grown(until, growth)};
     }
     // The same for the part of the time that falls between waypoint `i` and the next.
-    Reach DuringWay(std::size_t i, Time from, Time until, double inflation_mps) const;
+    Reach DuringWay(std::size_t i, Time from, Time until, const ObjectGrowth& growth) const;
     // The waypoint from which it goes at `t`: between t_k and the last pose.
     std::size_t WaypointAt(Time t) const;
-    bool MeetsOnWay(const Aabb& box_W, Time from, Time until, double inflation_mps) const;
+    bool MeetsOnWay(const Aabb& box_W, Time from, Time until, const ObjectGrowth& growth) const;
     // Where it is at both times, if its centre goes straight from one to the other.
-    std::optional<std::array<Reach, 2>> Straight(Time from, Time until, double inflation_mps) const;
-    bool Meets(const Aabb& box_W, Time from, Time until, double inflation_mps) const {
+    std::optional<std::array<Reach, 2>> Straight(Time from, Time until,
+                                                 const ObjectGrowth& growth) const;
+    bool Meets(const Aabb& box_W, Time from, Time until, const ObjectGrowth& growth) const {
       if (from < t_k) return true;
-      if (from >= last) return During(from, until, inflation_mps).Meets(box_W);
-      return MeetsOnWay(box_W, from, until, inflation_mps);
+      if (from >= last) return During(from, until, growth).Meets(box_W);
+      return MeetsOnWay(box_W, from, until, growth);
     }
   };
 
@@ -140,8 +149,18 @@ class ObjectIndex {
   Duration slice_;
   int slices_;
   std::size_t words_ = 0;  // per cell
+  // Since the earliest t_k.
+  double SinceOldest(Time t) const {
+    return balls_.empty() ? 0 : std::max(0.0, ToSeconds(t - oldest_t_k_));
+  }
+  double MostGrown(Time t, const ObjectGrowth& growth) const {
+    const double since_s = SinceOldest(t);
+    return growth.mps * since_s + growth.bound_multiple * widest_.At(since_s);
+  }
+
   Time oldest_t_k_ = Time::max();
-  Aabb box_W_;  // around all objects in the interval
+  PositionBound widest_;  // at least that of each object
+  Aabb box_W_;            // around all objects in the interval
   Eigen::Vector3d low_, cells_per_m_;
   std::array<std::vector<std::uint64_t>, 3> cells_;  // by WordOf
   std::vector<Ball> balls_;                          // of the objects
@@ -174,14 +193,13 @@ inline std::uint64_t ObjectIndex::BitsIn(const Range& range, std::size_t word) c
 }
 
 template <class Visit>
-void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, double inflation_mps,
+void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, const ObjectGrowth& growth,
                               Visit&& visit) const {
   if (words_ == 0) return;
   const bool within = from >= first_ && until <= last_;
   Range range{};
   if (within) {
-    const double grown_m = inflation_mps * std::max(0.0, ToSeconds(until - oldest_t_k_));
-    const Aabb grown_W = box_W.Padded(grown_m);
+    const Aabb grown_W = box_W.Padded(MostGrown(until, growth));
     if (!box_W_.Intersects(grown_W)) return;
     range = RangeOf(grown_W, from, until);
   }
@@ -189,7 +207,7 @@ void ObjectIndex::ForEachNear(const Aabb& box_W, Time from, Time until, double i
     std::uint64_t near = within ? BitsIn(range, word) : AllBits(word);
     for (; near != 0; near &= near - 1) {
       const std::size_t object = word * 64 + std::countr_zero(near);
-      if (balls_[object].Meets(box_W, from, until, inflation_mps)) visit(object);
+      if (balls_[object].Meets(box_W, from, until, growth)) visit(object);
     }
   }
 }

@@ -36,6 +36,7 @@ struct ObjectDelta {
   bool given = false;
   std::shared_ptr<const Shape> given_shape;  // null: that of `from`, or none if it is not given
   std::optional<Twist> velocity_O;
+  PositionBound bound;
   std::optional<Pose> T_B_O;
   Time first_seen;
   Time last_seen;

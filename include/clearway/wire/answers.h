@@ -25,7 +25,8 @@ struct ObjectInfo {
   Time t_k;
   std::optional<Twist> velocity_O;
   double speed_mps = 0;
-  Aabb box_O;  // around the occupied voxels or the given shape
+  std::optional<PositionBound> bound;  // none where a future is stated
+  Aabb box_O;                          // around the occupied voxels or the given shape
   ObjectExtent extent;
   Aabb box_W;  // around that, where the object is at t_k
   std::int64_t observed_voxels = 0, occupied_voxels = 0;

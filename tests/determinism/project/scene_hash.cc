@@ -36,7 +36,7 @@ std::uint64_t HashOfAnswers(const SceneSnapshot& scene) {
 int main() {
   for (const bool variant : {false, true}) {
     SceneParams params;
-    params.rays = {.max_range_m = 6, .discretize = variant};
+    params.rays = {.max_range_m = 6, .discretize = variant, .grazing_m = variant ? 2.0 : 0};
     params.clear_objects_by_rays = variant;
     params.motion = variant ? MotionModel::kTrack : MotionModel::kLastMotion;
     params.rest_distance_m = variant ? 0.5 : 0;

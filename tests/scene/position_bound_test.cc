@@ -1,0 +1,187 @@
+// How far from where it is predicted an object is said to be at most.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "clearway/scene/scene_builder.h"
+#include "scene/object_motion.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::AddPoint;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+using testing_support::Random;
+
+SceneParams ByTrack(double rest_distance_m = 0) {
+  SceneParams params;
+  params.motion = MotionModel::kTrack;
+  params.rest_distance_m = rest_distance_m;
+  return params;
+}
+
+Solid CarBody() {
+  Solid solid;
+  solid.box_O = {{-2, -1, 0}, {2, 1, 1.5}};
+  solid.radius_m = 2.7;
+  return solid;
+}
+
+std::vector<StampedPose> Track(int poses, const std::function<Pose(double)>& T_W_O_at) {
+  std::vector<StampedPose> track;
+  for (int k = 0; k < poses; ++k) track.push_back({At(0.1 * k), T_W_O_at(0.1 * k)});
+  return track;
+}
+
+// With the velocity that follows from the track.
+PositionBound BoundWith(const std::vector<StampedPose>& track, const SceneParams& params) {
+  const std::size_t size = track.size();
+  const Twist last_O = VelocityBetween(track[size - 2], track[size - 1]);
+  return BoundOf(track, GoesOn(track, last_O, CarBody(), params), CarBody(), params);
+}
+
+Pose Steady(double t) { return Pose::Translation(8 * t, 0, 0); }
+
+TEST(PositionBound, GrowsWithTime) {
+  const PositionBound dut{0.1, 0.2, 0.6};
+  EXPECT_EQ(dut.At(-1), 0);
+  EXPECT_EQ(dut.At(0), 0.1);
+  EXPECT_DOUBLE_EQ(dut.At(2), 0.1 + 0.4 + 1.2);
+  EXPECT_DOUBLE_EQ(dut.Rate(2), 1.4);
+}
+
+TEST(PositionBound, ShrinksForWhatKeepsItsMotion) {
+  const SceneParams params = ByTrack();
+  const double young_m = BoundWith(Track(3, Steady), params).At(2);
+  const double known_m = BoundWith(Track(20, Steady), params).At(2);
+  const double well_known_m = BoundWith(Track(60, Steady), params).At(2);
+  EXPECT_GT(young_m, 2);
+  EXPECT_LT(known_m, 0.9 * young_m);
+  EXPECT_LT(well_known_m, 0.8 * known_m);
+  EXPECT_GT(well_known_m, 0.5);  // it may still brake
+}
+
+TEST(PositionBound, IsWiderForWhatSwerves) {
+  const auto swerves = [](double t) { return Pose::Translation(8 * t, std::sin(2 * t), 0); };
+  const SceneParams params = ByTrack();
+  EXPECT_GT(BoundWith(Track(60, swerves), params).At(1),
+            1.5 * BoundWith(Track(60, Steady), params).At(1));
+}
+
+TEST(PositionBound, IsWiderForWhatIsFast) {
+  const auto slow = [](double t) { return Pose::Translation(0.5 * t, 0, 0); };
+  const SceneParams params = ByTrack();
+  EXPECT_LT(BoundWith(Track(4, slow), params).At(2),
+            0.5 * BoundWith(Track(4, Steady), params).At(2));
+}
+
+TEST(PositionBound, OfWhatRestsGrowsEvenly) {
+  const auto rests = [](double t) { return Pose::Translation(0.02 * std::sin(40 * t), 0, 0); };
+  const PositionBound dut = BoundWith(Track(60, rests), ByTrack(0.6));
+  EXPECT_EQ(dut.accel_mps2, 0);
+  EXPECT_LT(dut.At(3), 0.7);
+  EXPECT_GT(dut.At(3), dut.At(1));
+}
+
+// Objects whose velocity wanders, seen with noise: what is said of them is right about as often as
+// it should be, by either rule.
+TEST(PositionBound, HoldsForAboutNinetyFiveInAHundred) {
+  for (const MotionModel model : {MotionModel::kTrack, MotionModel::kLastMotion}) {
+    SceneParams params = ByTrack();
+    params.motion = model;
+    Random random(3);
+    int within = 0, all = 0;
+    for (int object = 0; object < 60; ++object) {
+      const double wanders_mps = random.Uniform(0.05, 0.25);  // in a tenth of a second
+      Eigen::Vector3d velocity_mps(random.Uniform(3, 9), 0, 0), p = Eigen::Vector3d::Zero();
+      std::vector<Eigen::Vector3d> truth;
+      std::vector<StampedPose> seen;
+      for (int k = 0; k < 80; ++k) {
+        velocity_mps += wanders_mps * Eigen::Vector3d(random.Normal(), random.Normal(), 0);
+        p += 0.1 * velocity_mps;
+        truth.push_back(p);
+        const Eigen::Vector3d noise(0.02 * random.Normal(), 0.02 * random.Normal(), 0);
+        seen.push_back({At(0.1 * k), {Eigen::Quaterniond::Identity(), p + noise}});
+      }
+      for (int k = 20; k + 10 < 80; k += 5) {
+        const std::span<const StampedPose> track(seen.data(), k + 1);
+        const Twist last_O = VelocityBetween(track[k - 1], track[k]);
+        const Twist velocity_O = GoesOn(track, last_O, CarBody(), params);
+        const Eigen::Vector3d moves = Exp(1.0 * velocity_O).translation;
+        const double error_m = (truth[k] + moves - truth[k + 10]).norm();
+        within += error_m <= BoundOf(track, velocity_O, CarBody(), params).At(1);
+        ++all;
+      }
+    }
+    EXPECT_GT(within, 0.85 * all);
+    EXPECT_LT(within, all);
+  }
+}
+
+TEST(PositionBound, IsFiniteForPosesFarApartOrAtOnce) {
+  Random random(4);
+  for (const double step_s : {1e-9, 0.01, 0.7, 3.0, 40.0}) {
+    std::vector<StampedPose> track;
+    for (int k = 0; k < 30; ++k) track.push_back({At(step_s * k), random.AnyPose(5)});
+    for (std::size_t size = 2; size <= track.size(); ++size) {
+      const PositionBound dut =
+          BoundWith({track.begin(), track.begin() + size}, ByTrack(size % 2 ? 0.6 : 0));
+      for (const double value : {dut.at_m, dut.speed_mps, dut.accel_mps2}) {
+        EXPECT_TRUE(std::isfinite(value));
+        EXPECT_GE(value, 0);
+      }
+    }
+  }
+}
+
+class BoundOfObject : public testing::Test {
+ protected:
+  const MovingObject& After(const Frame& frame) {
+    EXPECT_TRUE(builder_.Apply(frame).ok());
+    scene_ = builder_.Publish();
+    return *scene_->FindObject(5);
+  }
+  static Frame Seen(int k) {
+    Frame frame = FrameAt(0.1 * k);
+    const Pose T_W_B = Steady(0.1 * k);
+    AddObject(frame, 5, T_W_B, BoxSurface({1, 0.6, 0.4}, 0.05));
+    frame.poses.push_back({5, T_W_B});
+    return frame;
+  }
+
+  ThreadPool pool_{1};
+  SceneBuilder builder_{ByTrack(), {}, pool_};
+  ScenePtr scene_;
+};
+
+TEST_F(BoundOfObject, IsStatedFromItsFirstSightOn) {
+  EXPECT_GT(After(Seen(0)).bound.At(1), 0.5);
+  for (int k = 1; k < 10; ++k) EXPECT_GT(After(Seen(k)).bound.At(1), 0.3);
+}
+
+TEST_F(BoundOfObject, GoesOnWhileNoPoseComes) {
+  for (int k = 0; k < 10; ++k) After(Seen(k));
+  const PositionBound before = scene_->FindObject(5)->bound;
+  Frame frame = Seen(14);
+  frame.poses.clear();
+  const MovingObject& object = After(frame);
+  ASSERT_TRUE(object.bridged);
+  EXPECT_NEAR(object.bound.At(1), before.At(1.5), 1e-9);
+}
+
+TEST_F(BoundOfObject, IsNoneWhereAFutureIsStated) {
+  for (int k = 0; k < 10; ++k) After(Seen(k));
+  ASSERT_TRUE(builder_.SetFuture(5, {{At(2), Pose::Translation(20, 0, 0)}}).ok());
+  scene_ = builder_.Publish();
+  EXPECT_EQ(scene_->FindObject(5)->BoundOnWay(), PositionBound{});
+  EXPECT_GT(scene_->FindObject(5)->bound.At(1), 0);
+}
+
+}  // namespace
+}  // namespace clearway
