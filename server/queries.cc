@@ -68,7 +68,7 @@ ObjectInfo DescribeObject(const MovingObject& object) {
   info.t_k = object.t_k();
   info.velocity_O = object.velocity_O;
   info.speed_mps = object.SpeedMps();
-  if (object.future.empty()) info.bound = object.bound;
+  if (!(object.bound == PositionBound{})) info.bound = object.bound;
   info.box_O = object.solid->box_O;
   info.box_W = Transformed(info.T_W_O, info.box_O);
   info.extent = ExtentOf(object);

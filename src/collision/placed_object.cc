@@ -21,7 +21,7 @@ Aabb PlacedBox(const PlacedObject& placed) {
 double InflationOf(const MovingObject& object, Time t, const CheckOptions& options) {
   if (options.inflate_moving_only && object.velocity_O && object.AtRest()) return 0;
   return options.inflation_mps * std::max(0.0, ToSeconds(t - object.t_k())) +
-         options.bound_multiple * object.BoundOnWay().At(ToSeconds(t - object.LastPose().stamp));
+         options.bound_multiple * object.bound.At(ToSeconds(t - object.LastPose().stamp));
 }
 
 ObjectSolids PrepareSolids(const SceneSnapshot& scene) {

@@ -108,8 +108,9 @@ double AnytimeSearch::LeadingBy() const {
   for (const std::size_t goal : goals_) {
     arrival_s = std::min(arrival_s, ArrivalBy(roadmap_.Place(goal)));
   }
-  const bool tight = IsTight(latest_s_ - begin_s, arrival_s - begin_s);
-  return tight ? space_.latest_s() : latest_s_;
+  const double allowed_s = latest_s_ - begin_s;
+  const double leading_s = LeadingSeconds(allowed_s, arrival_s - begin_s);
+  return leading_s > allowed_s ? std::min(space_.latest_s(), begin_s + leading_s) : latest_s_;
 }
 
 bool AnytimeSearch::AddPlaces(std::size_t count, const ob::PlannerTerminationCondition& until) {
@@ -172,7 +173,7 @@ void AnytimeSearch::JoinAlongPath() {
 bool AnytimeSearch::GoalsAreTaken() {
   return std::ranges::none_of(goals_, [&](std::size_t goal) {
     const ob::State* const part = roadmap_.Place(goal);
-    return checks_.IsEverFree(part, ArrivalBy(part));
+    return checks_.IsEverFree(part, ArrivalBy(part), latest_s_);
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <ompl/base/ScopedState.h>
 
+#include <algorithm>
+
 #include "absl/strings/str_cat.h"
 #include "clearway/planning/space_time_setup.h"
 #include "planning/task_space.h"
@@ -36,7 +38,8 @@ absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
                                                    "; at full speed the goal is reached after ",
                                                    arrival_s, " s"));
   }
-  const double space_s = LeadingSeconds(ToSeconds(task.time_limit), arrival_s);
+  const double ever_s = ToSeconds(TimeFromNanoseconds(kFarthest_ns) - task.start_time);
+  const double space_s = std::min(ever_s, LeadingSeconds(ToSeconds(task.time_limit), arrival_s));
   space->as<ob::TimeStateSpace>(1)->setBounds(0, space_s);
   PlanningOptions options;
   options.check = task.options.check;

@@ -67,7 +67,7 @@ double TimedChecks::WaitByHalves(double from_s, double until_s) {
 double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
   if (query_ == nullptr) return at_s;
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s, kOfWhatPassedAtPlaces);
+  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s, latest_s_, kOfWhatPassedAtPlaces);
 }
 
 WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part, double begin_s,
@@ -91,12 +91,12 @@ WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part,
   const double after_s = ToSeconds(witness->until - *begin);
   const double share = end_s > begin_s ? after_s / (end_s - begin_s) : 0;
   space_->interpolate(first_, second_, std::clamp(share, 0.0, 1.0), first_);
-  return {false, false, FreeAgain(begin_s + after_s, kOfWhatPassedOnWays) - after_s};
+  return {false, false, FreeAgain(begin_s + after_s, latest_s_, kOfWhatPassedOnWays) - after_s};
 }
 
-bool TimedChecks::IsEverFree(const ob::State* part, double from_s) {
+bool TimedChecks::IsEverFree(const ob::State* part, double from_s, double until_s) {
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(from_s) || !std::isinf(FreeAgain(from_s, kOfWhatPassedAtPlaces));
+  return IsFreeAt(from_s) || !std::isinf(FreeAgain(from_s, until_s, kOfWhatPassedAtPlaces));
 }
 
 bool TimedChecks::IsFreeAt(double seconds) {
@@ -109,12 +109,12 @@ bool TimedChecks::IsFreeAt(double seconds) {
 
 // Something is in the way at that place and time: when is it gone? What is free for less than the
 // time between two looks may be missed.
-double TimedChecks::FreeAgain(double blocked_s, double of_what_passed) {
+double TimedChecks::FreeAgain(double blocked_s, double until_s, double of_what_passed) {
   double there_s = blocked_s, gone_s = blocked_s;
   while (gone_s == blocked_s) {
-    if (there_s >= latest_s_) return std::numeric_limits<double>::infinity();
+    if (there_s >= until_s) return std::numeric_limits<double>::infinity();
     const double wait_s = std::max(kLookAgain_s, of_what_passed * (there_s - blocked_s));
-    const double look_s = std::min(there_s + wait_s, latest_s_);
+    const double look_s = std::min(there_s + wait_s, until_s);
     (IsFreeAt(look_s) ? gone_s : there_s) = look_s;
   }
   while (gone_s - there_s > kGoneWithin_s) {

@@ -31,8 +31,8 @@ class TimedChecks {
   // Not before then it is worth trying to be at the place: at `at_s`, if nothing is known to be in
   // the way there; infinity, if something is seen to be in the way from then on.
   double FreeFrom(const ompl::base::State* part, double at_s);
-  // Whether it is seen to be free at some time from then on.
-  bool IsEverFree(const ompl::base::State* part, double from_s);
+  // Whether it is seen to be free at some time.
+  bool IsEverFree(const ompl::base::State* part, double from_s, double until_s);
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
                 double begin_s, double end_s);
   std::size_t ways_asked() const { return ways_asked_; }
@@ -40,8 +40,8 @@ class TimedChecks {
  private:
   bool IsFree(double begin_s, double end_s);  // from first_ to second_
   double WaitByHalves(double from_s, double until_s);
-  bool IsFreeAt(double seconds);                              // what is at first_
-  double FreeAgain(double blocked_s, double of_what_passed);  // the same
+  bool IsFreeAt(double seconds);                                              // what is at first_
+  double FreeAgain(double blocked_s, double until_s, double of_what_passed);  // the same
 
   ompl::base::SpaceInformationPtr si_;
   const SpaceTimeStateSpace* space_;

@@ -51,7 +51,7 @@ void PredictionScore::Add(const SceneSnapshot& scene) {
       const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
       const Eigen::Vector3d predicted_W = T_W_O * (T_O_W * now->T_W_B.translation);
       const double error_m = (predicted_W - box->T_W_B.translation).norm();
-      const double bound_m = object->BoundOnWay().At(ToSeconds(ahead_[i]));
+      const double bound_m = object->bound.At(ToSeconds(ahead_[i]));
       errors[i].errors_m.push_back(error_m);
       errors[i].bounds_m.push_back(bound_m);
       errors[i].within += error_m <= bound_m;

@@ -31,6 +31,17 @@ absl::Status CheckPoses(const std::string& field, const std::vector<StampedPose>
   return absl::OkStatus();
 }
 
+// So large that nothing is lost, and products of it and of times are still finite.
+absl::Status CheckBound(const std::string& field, const PositionBound& bound) {
+  constexpr double kLargest = 1e6;
+  for (const double value : {bound.at_m, bound.speed_mps, bound.accel_mps2}) {
+    if (value >= 0 && value <= kLargest) continue;
+    return Malformed(
+        absl::StrCat(field, ".bound: ", value, " does not lie between 0 and ", kLargest));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckPoses(const std::string& field, const ObjectDelta& delta) {
   if (delta.history.empty()) return Malformed(absl::StrCat(field, ".history: is empty"));
   if (auto status = CheckPoses(field + ".history", delta.history); !status.ok()) return status;
@@ -92,6 +103,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   if (!known_shape) delta.given_shape = to.given_shape;
   delta.velocity_O = to.velocity_O;
   delta.bound = to.bound;
+  delta.tracked_since = to.tracked_since;
   delta.T_B_O = to.T_B_O;
   delta.first_seen = to.first_seen;
   delta.last_seen = to.last_seen;
@@ -106,6 +118,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   const std::string field = absl::StrCat("objects[id=", delta.id, "]");
   if (delta.id <= kStaticLabel) return Malformed(absl::StrCat(field, ": object ids start at 1"));
   if (auto status = CheckPoses(field, delta); !status.ok()) return status;
+  if (auto status = CheckBound(field, delta.bound); !status.ok()) return status;
   if (base != nullptr && base->given() != delta.given) base = nullptr;
   if (base == nullptr && delta.keeps_future) {
     return Malformed(absl::StrCat(field, ".keeps_future: there is none"));
@@ -118,6 +131,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.future_velocity_O = delta.future_velocity_O;
   object.velocity_O = delta.velocity_O;
   object.bound = delta.bound;
+  object.tracked_since = delta.tracked_since;
   object.T_B_O = delta.T_B_O;
   object.first_seen = delta.first_seen;
   object.last_seen = delta.last_seen;

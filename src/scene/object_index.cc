@@ -80,7 +80,7 @@ ObjectIndex::Ball ObjectIndex::BallOf(const MovingObject& object, Duration horiz
   ball.horizon_s = ToSeconds(horizon);
   ball.bend_mps2 = 0.5 * velocity_O.angular.cross(velocity_O.linear).norm();
   ball.beyond_mps = velocity_O.linear.norm();
-  ball.bound = object.BoundOnWay();
+  ball.bound = object.bound;
   if (object.future.empty()) return ball;
   ball.way.reserve(object.future.size() + 1);
   const StampedPose* before = &object.history.back();

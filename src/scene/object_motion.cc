@@ -64,8 +64,9 @@ PastMisses MissesOf(std::span<const StampedPose> track, const Solid& solid,
                     const SceneParams& params) {
   constexpr int kPredictions = 10;
   const Eigen::Vector3d center_O = CenterOf(solid);
-  const Time last = track.back().stamp;
   PastMisses misses;
+  if (track.empty()) return misses;
+  const Time last = track.back().stamp;
   std::size_t known = track.size();
   for (int i = 1; i <= kPredictions; ++i) {
     const auto later =
@@ -106,9 +107,11 @@ Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, con
 // Root mean squares of misses times kOf95 were right for 95 in 100 objects of recorded drives
 // (KITTI, Argoverse 2): those at rest drift evenly, of others the error grows with the square of
 // the time.
-PositionBound BoundOf(std::span<const StampedPose> track, const Twist& velocity_O,
+PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,
                       const Solid& solid, const SceneParams& params) {
-  const PastMisses misses = MissesOf(track, solid, params);
+  const auto first = std::ranges::lower_bound(track, since, {}, &StampedPose::stamp);
+  const PastMisses misses =
+      MissesOf(track.last(static_cast<std::size_t>(track.end() - first)), solid, params);
   if (track.size() > 1 && velocity_O == Twist{}) {
     constexpr double kOf95 = 2.2, kUsualHalf_m = 0.06, kUsualWhole_m = 0.12;
     const double half_m = kOf95 * misses.half.Scale_m(kUsualHalf_m);

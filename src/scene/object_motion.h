@@ -15,9 +15,10 @@ Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, con
              const SceneParams& params);
 
 // How far from that it may be. The object's own past tells, if it is known for long enough: how far
-// it was, half a second and a second later, from where it would have been predicted. Weighed
-// against what is usual: for the beginning, and for luck.
-PositionBound BoundOf(std::span<const StampedPose> track, const Twist& velocity_O,
+// it was, half a second and a second later, from where it would have been predicted (the last
+// motion being that between two poses, wherever a frame's motion began). Weighed against what is
+// usual: for the beginning, and for luck. Poses before `since` are no witnesses.
+PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,
                       const Solid& solid, const SceneParams& params);
 
 // The bound as seen from a prediction that long ahead, which is taken for a pose.

@@ -37,8 +37,10 @@ void SetMotion(MovingObject& object, const SceneParams& params) {
   if (object.velocity_O) {
     object.velocity_O = GoesOn(object.history, *object.velocity_O, *object.solid, params);
   }
-  object.bound =
-      BoundOf(object.history, object.velocity_O.value_or(Twist{}), *object.solid, params);
+  if (object.bridged) object.tracked_since = object.t_k();
+  object.bridged = false;
+  object.bound = BoundOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
+                         *object.solid, params);
 }
 
 // The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
@@ -93,7 +95,9 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
         VelocityBetween({clue.motion->from, Inverse(clue.motion->H_W) * T_W_O}, {stamp, T_W_O});
   }
   if (clue.pose != nullptr) object.T_B_O = Inverse(clue.pose->T_W_B) * T_W_O;
-  object.bound = BoundOf(object.history, object.velocity_O.value_or(Twist{}), Solid{}, params);
+  object.tracked_since = stamp;
+  object.bound =
+      BoundOf(object.history, stamp, object.velocity_O.value_or(Twist{}), Solid{}, params);
   return object;
 }
 
@@ -104,7 +108,6 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
     const Pose T_W_O = clue.motion->H_W * T_W_from;  // eq. 2
     object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
     Remember(object, {stamp, T_W_O}, params.history);
-    object.bridged = false;
   } else if (clue.pose != nullptr) {
     if (!object.T_B_O) {
       object.T_B_O = Inverse(clue.pose->T_W_B) * PredictPose(object, stamp, params.horizon).T_W_O;
@@ -114,12 +117,13 @@ MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
       object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
     }
     Remember(object, {stamp, T_W_O}, params.history);
-    object.bridged = false;
   } else if (!clue.points.empty() && object.t_k() < stamp) {
     // Bridged to its future's end or beyond it, it goes on as it did there.
     const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
     if (outlived) object.velocity_O = object.LastVelocity();
-    object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.t_k()));
+    if (object.velocity_O && !(object.LastVelocity() == Twist{})) {
+      object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.t_k()));
+    }
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;
   }

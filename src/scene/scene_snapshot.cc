@@ -105,6 +105,7 @@ void ContentHasher::Add(const MovingObject& object) {
   for (const double value : {object.bound.at_m, object.bound.speed_mps, object.bound.accel_mps2}) {
     Add(value);
   }
+  Add(object.tracked_since);
   Add(object.T_B_O);
   Add(object.first_seen);
   Add(object.last_seen);
@@ -148,7 +149,8 @@ bool SameObject(const MovingObject& a, const MovingObject& b) {
   return a.id == b.id && a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
          a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
-         a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged;
+         a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
+         a.bound == b.bound && a.tracked_since == b.tracked_since;
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ class DeltaWriter {
     }
     if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
     if (!(object.bound == PositionBound{})) Write(object.bound, proto->mutable_bound());
+    proto->set_tracked_since_ns(ToNanoseconds(object.tracked_since));
     if (object.T_B_O) Write(*object.T_B_O, proto->mutable_box_from_object());
     proto->set_first_seen_ns(ToNanoseconds(object.first_seen));
     proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
@@ -104,6 +105,7 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
     object.velocity_O = read.ReadTwist("velocity_object", proto.velocity_object());
   }
   if (proto.has_bound()) object.bound = read.ReadBound("bound", proto.bound());
+  object.tracked_since = read.Stamp("tracked_since_ns", true, proto.tracked_since_ns());
   if (proto.has_box_from_object()) {
     object.T_B_O = read.ReadPose("box_from_object", true, proto.box_from_object());
   }

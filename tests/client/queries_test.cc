@@ -135,6 +135,7 @@ TEST_F(QueriesTest, ObjectsAndPredictions) {
     EXPECT_EQ(list->objects[i].frames_seen, truth.frames_seen);
     EXPECT_EQ(list->objects[i].occupied_voxels, truth.map_O.occupied_count());
     EXPECT_EQ(list->objects[i].velocity_O, truth.velocity_O);
+    EXPECT_EQ(list->objects[i].bound.value_or(PositionBound{}), truth.bound);
     EXPECT_EQ(list->objects[i].extent.size_m, ExtentOf(truth).size_m);
     EXPECT_EQ(list->objects[i].extent.center_O, ExtentOf(truth).center_O);
     EXPECT_EQ(list->objects[i].extent.yaw_rad, ExtentOf(truth).yaw_rad);

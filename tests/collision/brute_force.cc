@@ -155,8 +155,10 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
       object.future.empty() && object.velocity_O.has_value() && *object.velocity_O == Twist{};
   if (!(options.inflate_moving_only && rests)) {
     obstacle.margin_m = options.inflation_mps * std::max(0.0, ToSeconds(time - object.t_k()));
-    const double since_s = ToSeconds(time - object.history.back().stamp);
-    if (object.future.empty() && since_s >= 0) {
+    const Time last =
+        object.future.empty() ? object.history.back().stamp : object.future.back().stamp;
+    const double since_s = ToSeconds(time - last);
+    if (since_s >= 0) {
       const auto& [at_m, speed_mps, accel_mps2] = object.bound;
       obstacle.margin_m += options.bound_multiple *
                            (at_m + speed_mps * since_s + accel_mps2 * since_s * since_s / 2);

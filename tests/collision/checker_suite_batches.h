@@ -95,6 +95,8 @@ TYPED_TEST_P(CheckerSuite, RefusesOptionsOutOfRange) {
       [](CheckOptions& o) { o.padding_m = kNaN; },
       [](CheckOptions& o) { o.inflation_mps = -1; },
       [](CheckOptions& o) { o.bound_multiple = 101; },
+      [](CheckOptions& o) { o.bound_multiple = -1; },
+      [](CheckOptions& o) { o.bound_multiple = kNaN; },
       [](CheckOptions& o) { o.max_unknown_fraction = 1.5; },
       [](CheckOptions& o) { o.clearance_up_to_m = -1; },
       [](CheckOptions& o) { o.clearance_up_to_m = kNaN; },

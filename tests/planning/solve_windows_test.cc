@@ -45,6 +45,29 @@ TEST(SolveWindows, TheGoalIsFreeOnce) {
   }
 }
 
+// The limit is tight, so that later paths are looked for too.
+TEST(SolveWindows, AGoalThatIsFreeAfterTheLimitAloneIsTaken) {
+  TestWorld world;
+  GivenBut({15, 19}, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+  PlanTask task = AcrossThePlace();
+  task.time_limit = seconds(12);
+  const Solved solved = SolveIn(world.Scene(), Disc(), task);
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(solved.outcome->blocker.object, 1);
+  EXPECT_TRUE(solved.plans.empty());
+}
+
+TEST(SolveWindows, ATightLimitMayBeAtTheEndOfTime) {
+  TestWorld world;
+  PlanTask task = AcrossThePlace();
+  task.time_limit = seconds(9);
+  task.start_time = TimeFromNanoseconds(kFarthest_ns) - task.time_limit;
+  const Solved solved = SolveIn(world.Scene(), Disc(), task);
+  ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+  EXPECT_EQ(solved.outcome->status, PlanStatus::kFound);
+}
+
 TEST(SolveWindows, ADoorOpensOnce) {
   for (const Window window : {Window{12, 14}, {20, 23}, {30, 34}, {45, 49}}) {
     TestWorld world;

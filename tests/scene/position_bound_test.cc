@@ -43,7 +43,7 @@ std::vector<StampedPose> Track(int poses, const std::function<Pose(double)>& T_W
 PositionBound BoundWith(const std::vector<StampedPose>& track, const SceneParams& params) {
   const std::size_t size = track.size();
   const Twist last_O = VelocityBetween(track[size - 2], track[size - 1]);
-  return BoundOf(track, GoesOn(track, last_O, CarBody(), params), CarBody(), params);
+  return BoundOf(track, Time::min(), GoesOn(track, last_O, CarBody(), params), CarBody(), params);
 }
 
 Pose Steady(double t) { return Pose::Translation(8 * t, 0, 0); }
@@ -115,7 +115,7 @@ TEST(PositionBound, HoldsForAboutNinetyFiveInAHundred) {
         const Twist velocity_O = GoesOn(track, last_O, CarBody(), params);
         const Eigen::Vector3d moves = Exp(1.0 * velocity_O).translation;
         const double error_m = (truth[k] + moves - truth[k + 10]).norm();
-        within += error_m <= BoundOf(track, velocity_O, CarBody(), params).At(1);
+        within += error_m <= BoundOf(track, Time::min(), velocity_O, CarBody(), params).At(1);
         ++all;
       }
     }
@@ -175,12 +175,41 @@ TEST_F(BoundOfObject, GoesOnWhileNoPoseComes) {
   EXPECT_NEAR(object.bound.At(1), before.At(1.5), 1e-9);
 }
 
-TEST_F(BoundOfObject, IsNoneWhereAFutureIsStated) {
+// Predictions are no witnesses of how good predictions are.
+TEST_F(BoundOfObject, IsThatOfAYoungTrackAfterAGap) {
+  for (int k = 0; k < 60; ++k) After(Seen(k));
+  const double known_m = scene_->FindObject(5)->bound.At(1);
+  for (int k = 60; k < 90; ++k) {
+    Frame frame = Seen(k);
+    frame.poses.clear();
+    After(frame);
+  }
+  After(Seen(90));
+  EXPECT_GT(After(Seen(91)).bound.At(1), 1.5 * known_m);
+}
+
+TEST_F(BoundOfObject, StaysWhileNoMotionIsEverKnown) {
+  Frame frame = Seen(0);
+  frame.poses.clear();
+  const PositionBound first = After(frame).bound;
+  for (int k = 1; k < 50; ++k) {
+    frame.stamp = At(0.1 * k);
+    After(frame);
+  }
+  EXPECT_EQ(scene_->FindObject(5)->bound, first);
+}
+
+TEST_F(BoundOfObject, BeginsWhereAStatedFutureEnds) {
   for (int k = 0; k < 10; ++k) After(Seen(k));
   ASSERT_TRUE(builder_.SetFuture(5, {{At(2), Pose::Translation(20, 0, 0)}}).ok());
   scene_ = builder_.Publish();
-  EXPECT_EQ(scene_->FindObject(5)->BoundOnWay(), PositionBound{});
-  EXPECT_GT(scene_->FindObject(5)->bound.At(1), 0);
+  const MovingObject& object = *scene_->FindObject(5);
+  const auto bound_m = [&](double t) {
+    return object.bound.At(ToSeconds(At(t) - object.LastPose().stamp));
+  };
+  EXPECT_EQ(bound_m(1.9), 0);
+  EXPECT_EQ(bound_m(3), object.bound.At(1));
+  EXPECT_GT(bound_m(3), 0);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
 #include "support/random_given.h"
@@ -208,6 +210,18 @@ TEST_F(SceneDeltaRefusalTest, HistoryThatDoesNotAscend) {
 TEST_F(SceneDeltaRefusalTest, FutureThatDoesNotFollowTheHistory) {
   delta_.objects[0].future = {delta_.objects[0].history.back()};
   EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+// Products with times must be finite, or checkers would spare what is there.
+TEST_F(SceneDeltaRefusalTest, BoundsOutOfRange) {
+  for (const double bad : {-1e-9, 1.1e6, 1e308, double{NAN}, double{INFINITY}}) {
+    for (double PositionBound::*field :
+         {&PositionBound::at_m, &PositionBound::speed_mps, &PositionBound::accel_mps2}) {
+      delta_.objects[0].bound = {};
+      delta_.objects[0].bound.*field = bad;
+      EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument) << bad;
+    }
+  }
 }
 
 TEST_F(SceneDeltaRefusalTest, FutureThatThereIsNone) {

@@ -122,7 +122,7 @@ TEST(ObjectIndex, HoldsEveryObjectThatMeetsTheBox) {
         const MovingObject& here = *scene->objects[object];
         const double grown_m =
             growth.mps * std::max(0.0, ToSeconds(time - here.t_k())) +
-            growth.bound_multiple * here.BoundOnWay().At(ToSeconds(time - here.LastPose().stamp));
+            growth.bound_multiple * here.bound.At(ToSeconds(time - here.LastPose().stamp));
         const bool found = std::binary_search(visited.begin(), visited.end(), object);
         const bool meets = MeetsBox(placed.objects()[object], box_W, grown_m, random);
         EXPECT_TRUE(found || !meets) << "object " << object;

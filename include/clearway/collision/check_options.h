@@ -58,7 +58,8 @@ struct CheckOptions {
 };
 
 // INVALID_ARGUMENT naming the field and the limit: lengths are at most 100 km, inflation 1 km/s,
-// bounds are taken 100 times,// ids of ignored objects at least 1, links those of the robot.
+// bounds are taken 100 times at most, ids of ignored objects are at least 1, links those of the
+// robot.
 absl::Status Validate(const CheckOptions& options, const Robot& robot);
 
 }  // namespace clearway

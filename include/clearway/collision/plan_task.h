@@ -84,7 +84,7 @@ enum class PlanStatus {
 };
 
 // How a search ended. Its plans are proved free on this version, with predictions within the
-// horizon, and with the options' inflation. A plain value.
+// horizon, and with the options' inflation and multiple of bounds. A plain value.
 struct PlanOutcome {
   std::uint64_t version = 0;
   Time stamp;

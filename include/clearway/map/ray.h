@@ -18,8 +18,9 @@ struct RayOptions {
   bool discretize = false;
   // A ray that ends on a surface at a grazing angle runs for long through the free half of the
   // voxels that hold the surface. Of what it passes in so many metres before its end and in one
-  // layer of voxels with that, along any axis, what is occupied stays as it is. Metres; 0: it
-  // counts as traversed, as in OctoMap.
+  // layer of voxels with that, what is occupied stays as it is. A layer lies across an axis along
+  // which the end's voxel has no occupied neighbour: with one, the surface does not lie in the
+  // layer, and the ray meets it head on. Metres; 0: it counts as traversed, as in OctoMap.
   double grazing_m = 0;
   bool operator==(const RayOptions&) const = default;
 };

@@ -84,8 +84,11 @@ struct MovingObject {
   // Constant body-frame velocity of its motion (rad/s, m/s at O's origin), of the last one or of
   // its track (MotionModel); none while no motion is known.
   std::optional<Twist> velocity_O;
-  // Of its predictions by that. Of a given object none, as long as no frame moves it.
+  // Of its predictions, from the last pose that is known or stated on: what is stated is taken as
+  // it is. Of a given object none, as long as no frame moves it.
   PositionBound bound;
+  // The poses of the history from then on came from frames; among earlier ones are predictions.
+  Time tracked_since;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;
 
@@ -109,8 +112,6 @@ struct MovingObject {
   Twist LastVelocity() const {
     return future.empty() ? velocity_O.value_or(Twist{}) : future_velocity_O;
   }
-  // How far from where it is predicted it may be: where a future is stated, nowhere else.
-  PositionBound BoundOnWay() const { return future.empty() ? bound : PositionBound{}; }
   // The two poses in turn, known or stated, between which `t` lies: before->stamp <= t <
   // after->stamp. `t` must lie between the first of them all and the last.
   struct Interval {

@@ -37,6 +37,7 @@ struct ObjectDelta {
   std::shared_ptr<const Shape> given_shape;  // null: that of `from`, or none if it is not given
   std::optional<Twist> velocity_O;
   PositionBound bound;
+  Time tracked_since;
   std::optional<Pose> T_B_O;
   Time first_seen;
   Time last_seen;

@@ -25,7 +25,7 @@ struct ObjectInfo {
   Time t_k;
   std::optional<Twist> velocity_O;
   double speed_mps = 0;
-  std::optional<PositionBound> bound;  // none where a future is stated
+  std::optional<PositionBound> bound;  // none of given objects
   Aabb box_O;                          // around the occupied voxels or the given shape
   ObjectExtent extent;
   Aabb box_W;  // around that, where the object is at t_k
