@@ -73,11 +73,11 @@ absl::Status StatusOf(const PlanOutcome& outcome, const Flags& flags) {
           absl::StrCat("no plan: the start is blocked by ", WhatBlocks(outcome.blocker)));
     case PlanStatus::kGoalBlocked:
       return absl::FailedPreconditionError(
-          absl::StrCat("no plan: the goal is never free, first of all blocked by ",
+          absl::StrCat("no plan: the goal was never seen free, first of all blocked by ",
                        WhatBlocks(outcome.blocker)));
     case PlanStatus::kNoTimeToSpare:
       return absl::FailedPreconditionError(
-          "no plan: the straight way is not free, and the time limit leaves none for another");
+          "no plan: the straight way is not free, and none was found that the time limit allows");
     default:
       return absl::DeadlineExceededError(absl::StrCat("no plan found within ", flags.budget_s,
                                                       " s (--budget); there may be none"));

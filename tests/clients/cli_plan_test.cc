@@ -92,7 +92,8 @@ TEST_F(CliPlan, NoPlanSaysWhy) {
   const std::string folder = CLEARWAY_SCENARIOS;
   const Finished taken = Clearway({"plan", folder + "/goal_taken.json", "--budget", "0.1"});
   EXPECT_EQ(taken.exit_code, 1);
-  EXPECT_THAT(taken.err, HasSubstr("the goal is never free, first of all blocked by object 1"));
+  EXPECT_THAT(taken.err,
+              HasSubstr("the goal was never seen free, first of all blocked by object 1"));
   const Finished walled = Clearway({"plan", folder + "/walled_in.json", "--budget", "0.1"});
   EXPECT_EQ(walled.exit_code, 1);
   EXPECT_THAT(walled.err, HasSubstr("no plan found within 0.1 s"));

@@ -77,10 +77,14 @@ struct Plan {
 
 enum class PlanStatus {
   kFound,
-  kNotFound,       // within the time that there was to think
-  kStartBlocked,   // at the start time
-  kGoalBlocked,    // at all times at which it could be reached
-  kNoTimeToSpare,  // the straight way is not free, and the time limit leaves none for another
+  kNotFound,      // within the time that there was to think
+  kStartBlocked,  // at the start time
+  // Whenever it was looked at, from when on it could be reached: every 0.3 s, later every 64th of
+  // the time since, so that a shorter gap may be missed.
+  kGoalBlocked,
+  // The straight way is not free, and no place was found by way of which there is more time than
+  // the limit leaves.
+  kNoTimeToSpare,
 };
 
 // How a search ended. Its plans are proved free on this version, with predictions within the

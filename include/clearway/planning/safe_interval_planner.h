@@ -54,12 +54,13 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   void SetFirstBatch(unsigned int places) { first_batch_ = places; }
   unsigned int GetFirstBatch() const { return first_batch_; }
 
-  // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and the
-  // latest time leaves none for another, or if the space is so wide (more than some 1e5 times what
-  // can be reached in time) that no place within reach is found; TIMEOUT if `until` held before a
-  // path was found; else EXACT_SOLUTION, with the earliest arrival found when `until` held, or with
-  // one that no path can beat or that is good enough for the problem's objective (its cost
-  // threshold). Gives the problem the objective EarliestArrivalObjective if it has none.
+  // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and no
+  // place is found by way of which the latest time leaves more, or if the space is so wide (more
+  // than some 1e5 times what can be reached in time) that no place within reach is found; TIMEOUT
+  // if `until` held before a path was found; else EXACT_SOLUTION, with the earliest arrival found
+  // when `until` held, or with one that no path can beat or that is good enough for the problem's
+  // objective (its cost threshold). Gives the problem the objective EarliestArrivalObjective if it
+  // has none.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& until) override;
   void clear() override;
   // Another problem than the one before is begun anew.
