@@ -84,6 +84,8 @@ SceneParams RobustParamsFor(const Input& input) {
   params.rays.grazing_m = 4;
   params.motion = MotionModel::kTrack;
   params.rest_distance_m = 0.6;
+  params.object_pose_error_m = 0.1;
+  params.object_pose_error_rad = 0.02;
   return params;
 }
 

@@ -12,6 +12,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
+#include "clearway/report/box_fit.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/scene/scene_builder.h"
 #include "summary.h"
@@ -55,19 +56,25 @@ void SeeBoxes(const LidarFolder& folder, Frame& frame) {
   }
 }
 
-std::map<ObjectId, std::vector<PredictionErrors>> ErrorsOn(const LidarFolder& folder,
-                                                           const SceneParams& params,
-                                                           bool boxes_alone) {
+struct Judged {
+  std::map<ObjectId, std::vector<PredictionErrors>> errors;
+  std::map<ObjectId, BoxFit> sizes;
+};
+
+Judged JudgedOn(const LidarFolder& folder, const SceneParams& params, bool boxes_alone) {
   ThreadPool pool(1);
   SceneBuilder builder(params, {}, pool);
   PredictionScore score(TruthOf(folder), {kAhead.begin(), kAhead.end()});
+  BoxFitter sizes(TruthOf(folder));
   for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
     auto frame = folder.frames.read(k);
     if (frame.ok() && boxes_alone) SeeBoxes(folder, *frame);
     if (!frame.ok() || !builder.Apply(*frame).ok()) std::abort();
-    score.Add(*builder.Publish());
+    const ScenePtr scene = builder.Publish();
+    score.Add(*scene);
+    sizes.Add(*scene);
   }
-  return score.Errors();
+  return {score.Errors(), sizes.Fits()};
 }
 
 // Of all objects together.
@@ -90,7 +97,9 @@ void Predict(benchmark::State& state, const std::string& path, LidarPoses poses,
   for (auto _ : state) {
     const auto folder = OpenLidarFolder(path, {.poses = poses});
     if (!folder.ok()) return state.SkipWithError(folder.status().ToString().c_str());
-    const auto errors = ErrorsOn(*folder, params, false);
+    const auto [errors, sizes] = JudgedOn(*folder, params, false);
+    state.counters["reconstruction_van_size_off" + suffix + "_m"] =
+        sizes.at(kVan).WorstDifference_m();
     CountWithin(errors, suffix, state);
     for (const auto& [id, name] :
          {std::pair{kVan, "van"}, {kCyclist, "cyclist"}, {kParked, "parked"}}) {
@@ -108,7 +117,7 @@ void PredictBoxes(benchmark::State& state, const std::string& path) {
     SceneParams params = ByTrack();
     params.rays.max_range_m = -1;
     params.resolution_m = 2;  // it is of no interest
-    CountWithin(ErrorsOn(*folder, params, true), "_av2", state);
+    CountWithin(JudgedOn(*folder, params, true).errors, "_av2", state);
   }
 }
 

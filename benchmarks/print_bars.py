@@ -32,6 +32,8 @@ AT_LEAST = {
     "drive_start_frames": 20,
     "prediction_solids_1s_f": 0.9,
     "reconstruction_completeness": 0.98,
+    "reconstruction_registered_accuracy_x": 2,
+    "reconstruction_registered_completeness_x": 1,
     "reconstruction_occupied_precision": 0.97,
     "reconstruction_occupied_recall": 0.97,
     "reconstruction_free_precision": 0.995,
@@ -70,6 +72,7 @@ AT_MOST = {
     "prediction_cyclist_1s_m": 0.4,
     "prediction_parked_1s_m": 0.15,
     "reconstruction_accuracy_voxels": 0.5,
+    "reconstruction_van_size_off_m": 0.2,
     "reconstruction_residual_voxels": 0,
 }
 

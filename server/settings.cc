@@ -167,6 +167,10 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.history_s", scene.history, "how far back poses are kept"),
       CLEARWAY_SETTING("scene.rest_distance_m", scene.rest_distance_m,
                        "objects that stay within it for a second are at rest"),
+      CLEARWAY_SETTING("scene.object_pose_error_m", scene.object_pose_error_m,
+                       "mean error of objects' poses; not 0: views are registered to maps"),
+      CLEARWAY_SETTING("scene.object_pose_error_rad", scene.object_pose_error_rad,
+                       "the same of their angles"),
       CLEARWAY_SETTING(
           "scene.keep_distance_m", scene.keep_distance_m,
           "what of the static map lies farther from the sensor is forgotten; 0: nothing"),

@@ -1,13 +1,16 @@
 // clearway evaluate: what a scene made of its frames and foresaw, against the truth.
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "clearway/scene/scene_builder.h"
+#include "clearway/sim/wrong_labels.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
+#include "cli/evaluation_html.h"
 #include "cli/progress.h"
 
 namespace clearway::cli {
@@ -17,6 +20,8 @@ constexpr char kExamples[] =
     "  clearway evaluate sim:street --noise table1\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
 
+constexpr std::uint64_t kSeed = 1;  // of wrong labels
+
 struct Flags {
   std::string spec;
   SourceFlags source;
@@ -24,7 +29,10 @@ struct Flags {
   double rest_distance_m = 0;
   double max_range_m = 50;
   double grazing_m = 0;
+  double pose_error_m = 0, pose_error_deg = 0;
+  double wrong_labels = 0;
   bool json = false;
+  std::string html;
 };
 
 SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
@@ -34,46 +42,44 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rays.grazing_m = flags.grazing_m;
   params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
   params.rest_distance_m = flags.rest_distance_m;
+  params.object_pose_error_m = flags.pose_error_m;
+  params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
   return params;
 }
 
-absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams& params,
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
                                     const Terminal& terminal) {
+  const SceneParams params = ParamsOf(source, flags);
+  if (auto status = Validate(params); !status.ok()) return status;
+  if (source.frames.frame_count == 0) {
+    return absl::FailedPreconditionError(flags.spec + ": holds no frames");
+  }
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
-  PredictionScore score(source.truth, {kAhead.begin(), kAhead.end()});
-  std::optional<SurfaceJudge> judge;  // where the true surfaces are known
-  if (source.simulation)
-    judge.emplace(*source.simulation, std::vector<Duration>(kAhead.begin(), kAhead.end()));
+  Evaluator evaluator(source);
   ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
   std::uint64_t points = 0;
   for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
     const auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
-    if (const auto report = builder.Apply(*frame); !report.ok()) return report.status();
-    const ScenePtr scene = builder.Publish();
-    score.Add(*scene);
-    if (judge) judge->Add(k, *frame, *scene);
+    const auto report = builder.Apply(WithWrongLabels(*frame, flags.wrong_labels, kSeed));
+    if (!report.ok()) return report.status();
+    evaluator.Add(k, *frame, builder.Publish());
     points += frame->points_S.size();
     progress.Update(k + 1, points);
   }
   progress.Finish();
-  Evaluation found{score.Errors(), {}, {}, {}};
-  if (judge) {
-    found.fits = judge->Fits();
-    found.solids = judge->overlaps();
-    found.static_fit = judge->FitOfStatic(*builder.Publish());
-  }
-  return found;
+  return std::move(evaluator).Result();
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
-  const SceneParams params = ParamsOf(*source, flags);
-  if (auto status = Validate(params); !status.ok()) return status;
-  const auto found = Evaluate(*source, params, terminal);
+  const auto found = Evaluate(*source, flags, terminal);
   if (!found.ok()) return found.status();
+  if (!flags.html.empty()) {
+    if (auto status = WriteHtml(flags.html, *source, *found); !status.ok()) return status;
+  }
   flags.json ? PrintJson(terminal.out, *source, *found) : PrintText(terminal.out, *source, *found);
   return absl::OkStatus();
 }
@@ -103,6 +109,21 @@ void AddEvaluate(Cli& cli) {
   command->add_option("--grazing", flags->grazing_m, "As of clearway-server --scene-grazing-m")
       ->check(Between(0, 100))
       ->capture_default_str();
+  command
+      ->add_option("--pose-error", flags->pose_error_m,
+                   "As of clearway-server --scene-object-pose-error-m")
+      ->check(Between(0, 10))
+      ->capture_default_str();
+  command->add_option("--pose-error-deg", flags->pose_error_deg, "The same of angles, in degrees")
+      ->check(Between(0, 57))
+      ->capture_default_str();
+  command
+      ->add_option("--wrong-labels", flags->wrong_labels,
+                   "Give this share of the points a wrong label")
+      ->check(Between(0, 1))
+      ->capture_default_str();
+  command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
+      ->type_name("FILE");
   command->add_flag("--json", flags->json, "Print JSON");
   AddSourceFlags(command, &flags->source);
 }

@@ -4,10 +4,13 @@
 #include <array>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
+#include <string>
 #include <vector>
 
+#include "clearway/report/box_fit.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/report/surface_judge.h"
 #include "cli/truth_source.h"
@@ -21,10 +24,44 @@ inline constexpr std::array kAhead = {
 
 struct Evaluation {
   std::map<ObjectId, std::vector<PredictionErrors>> predictions;  // by kAhead
+  std::map<ObjectId, BoxFit> sizes;
+  // After each frame that showed the object: seconds since the first frame, occupied voxels.
+  std::map<ObjectId, std::vector<Eigen::Vector2d>> growth;
+  ScenePtr scene;                                                  // the last version
+  std::map<ObjectId, std::shared_ptr<const MovingObject>> newest;  // dropped ones too
   // Where the true surfaces are known: of simulations.
   std::map<ObjectId, ObjectFit> fits;
   std::map<ObjectId, std::vector<SolidOverlap>> solids;  // by kAhead
   std::optional<StaticFit> static_fit;
+};
+
+inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
+
+std::string NameOf(const TrueSource& source, ObjectId id);  // empty if it has none
+// All objects together; empty without any.
+std::vector<PredictionErrors> Together(
+    const std::map<ObjectId, std::vector<PredictionErrors>>& predictions);
+std::vector<SolidOverlap> Together(const std::map<ObjectId, std::vector<SolidOverlap>>& solids);
+
+// Collects an evaluation over the frames of a source. One thread.
+class Evaluator {
+ public:
+  explicit Evaluator(const TrueSource& source);
+
+  // Frame k, of true labels, and the version after it.
+  void Add(std::size_t k, const Frame& frame, ScenePtr scene);
+
+  // After the last frame; there must be one.
+  Evaluation Result() &&;
+
+ private:
+  void AddObjects(const SceneSnapshot& scene);
+
+  PredictionScore predictions_;
+  BoxFitter boxes_;
+  std::optional<SurfaceJudge> judge_;  // where the true surfaces are known
+  std::optional<Time> first_;
+  Evaluation found_;
 };
 
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found);

@@ -1,10 +1,11 @@
 #include "map/grazed_voxels.h"
 
-#include <optional>
+#include <algorithm>
 #include <vector>
 
 #include "absl/container/flat_hash_map.h"
 #include "clearway/map/ray.h"
+#include "map/surface_layers.h"
 
 namespace clearway {
 namespace {
@@ -27,80 +28,85 @@ MaskByBlock MissedOccupied(const VoxelMap& map, const ScanUpdate& update) {
   return missed;
 }
 
-// The axes (bits 0 to 2) along which two voxels are in one layer.
-unsigned SharedAxes(VoxelKey a, VoxelKey b) {
-  return static_cast<unsigned>(a.x == b.x) | static_cast<unsigned>(a.y == b.y) << 1 |
-         static_cast<unsigned>(a.z == b.z) << 2;
+// What part of a ray, from its end back to its origin, lies in the layer of its end voxel that is
+// level along one of the axes. A little more, so that the voxel where it ends is the next layer's.
+float PartInLayer(const VoxelGrid& grid, VoxelKey end_voxel, unsigned axes, const RaySegment& ray) {
+  const std::int32_t voxel[3] = {end_voxel.x, end_voxel.y, end_voxel.z};
+  const double beyond_m = 1e-4 * grid.resolution_m();
+  double part = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if ((axes >> axis & 1) == 0) continue;
+    const double end_m = ray.end[axis], back_m = ray.origin[axis] - end_m;
+    const double low_m = voxel[axis] * grid.resolution_m();
+    const double to_border_m = back_m < 0 ? end_m - low_m : low_m + grid.resolution_m() - end_m;
+    const double leaves_m = to_border_m + beyond_m;
+    part = std::max(part, leaves_m < std::abs(back_m) ? leaves_m / std::abs(back_m) : 1.0);
+  }
+  return static_cast<float>(part);
 }
 
-// Goes rays back from their ends. One thread.
-class GrazeFinder {
+// Finds the stretches, from their ends back, along which rays spare what is occupied. One thread.
+class Stretcher {
  public:
-  GrazeFinder(const VoxelMap& map, const MaskByBlock& missed, double grazing_m)
-      : map_(map), missed_(missed), grazing_m_(grazing_m) {}
+  Stretcher(const VoxelGrid& grid, const SurfaceLayers& layers, const MaskByBlock& missed,
+            double grazing_m)
+      : grid_(grid), layers_(layers), missed_(missed), grazing_m_(static_cast<float>(grazing_m)) {}
 
-  // Adds those of the missed voxels that the ray grazes.
-  void Find(const RaySegment& ray, std::vector<VoxelKey>& grazed) {
-    const VoxelGrid& grid = map_.grid();
+  // One that goes nowhere if surely nothing missed is on it.
+  RaySegment Of(const RaySegment& ray) {
+    const VoxelKey end = grid_.KeyOf(ray.end.cast<double>());
+    LookIn(BlockOf(end));
     const Eigen::Vector3f back = ray.origin - ray.end;
-    const double length_m = back.norm();
-    const bool whole = length_m <= grazing_m_;
-    const Eigen::Vector3f until =
-        whole ? ray.origin : ray.end + static_cast<float>(grazing_m_ / length_m) * back;
-    const VoxelKey end = grid.KeyOf(ray.end.cast<double>());
-    std::optional<unsigned> across;  // once it is wanted
-    WalkRayWhile(grid, ray.end, until, [&](VoxelKey key) {
-      const unsigned shared = SharedAxes(key, end);
-      if (shared == 0) return false;
-      if (!IsMissed(key)) return true;
-      if (!across) across = AxesAcross(end);
-      if ((shared & *across) != 0) grazed.push_back(key);
-      return *across != 0;
-    });
+    const float in_layer = PartInLayer(grid_, end, AxesAcross(*beside_, end), ray);
+    const float part = std::min(grazing_m_ / back.norm(), in_layer);
+    const Eigen::Vector3f until = part < 1 ? Eigen::Vector3f(ray.end + part * back) : ray.origin;
+    if (!missed_here_ && BlockOf(grid_.KeyOf(until.cast<double>())) == block_) {
+      return {ray.end, ray.end};
+    }
+    return {ray.end, until};
   }
 
  private:
-  // The axes along which the voxel has no occupied neighbour: a surface there may lie across them.
-  unsigned AxesAcross(VoxelKey key) const {
-    const auto occupied = [&](int x, int y, int z) {
-      return map_.State({key.x + x, key.y + y, key.z + z}) == VoxelState::kOccupied;
-    };
-    return static_cast<unsigned>(!occupied(1, 0, 0) && !occupied(-1, 0, 0)) |
-           static_cast<unsigned>(!occupied(0, 1, 0) && !occupied(0, -1, 0)) << 1 |
-           static_cast<unsigned>(!occupied(0, 0, 1) && !occupied(0, 0, -1)) << 2;
-  }
-  bool IsMissed(VoxelKey key) {
-    const BlockKey block = BlockOf(key);
-    if (mask_ == nullptr || block != block_) {
-      static constexpr BlockMask kNone{};
-      const auto found = missed_.find(block);
-      block_ = block;
-      mask_ = found == missed_.end() ? &kNone : &found->second;
-    }
-    return mask_->Test(IndexInBlock(key));
+  // Rays that follow each other often end in one block.
+  void LookIn(BlockKey block) {
+    if (beside_ != nullptr && block == block_) return;
+    block_ = block;
+    beside_ = &layers_.In(block);
+    missed_here_ = missed_.contains(block);
   }
 
-  const VoxelMap& map_;
+  const VoxelGrid& grid_;
+  const SurfaceLayers& layers_;
   const MaskByBlock& missed_;
-  double grazing_m_;
-  // Rays stay in one block for several steps.
+  float grazing_m_;
   BlockKey block_;
-  const BlockMask* mask_ = nullptr;
+  const SurfaceLayers::Beside* beside_ = nullptr;
+  bool missed_here_ = false;
 };
 
 }  // namespace
 
 void SpareGrazed(const VoxelMap& map, std::span<const RaySegment> rays, double grazing_m,
-                 ThreadPool& pool, ScanUpdate& update) {
+                 ThreadPool& pool, RaySectors& sectors, ScanUpdate& update) {
   const MaskByBlock missed = MissedOccupied(map, update);
   if (missed.empty()) return;
-  std::vector<std::vector<VoxelKey>> grazed(pool.threads());
-  pool.ParallelFor(rays.size(), [&](int worker, std::size_t begin, std::size_t end) {
-    GrazeFinder finder(map, missed, grazing_m);
-    for (std::size_t i = begin; i < end; ++i) finder.Find(rays[i], grazed[worker]);
+  const SurfaceLayers layers(map, update, pool);
+  std::vector<RaySegment> stretches(rays.size());
+  pool.ParallelFor(rays.size(), [&](int, std::size_t begin, std::size_t end) {
+    Stretcher stretcher(map.grid(), layers, missed, grazing_m);
+    for (std::size_t i = begin; i < end; ++i) stretches[i] = stretcher.Of(rays[i]);
   });
-  for (const std::vector<VoxelKey>& keys : grazed) {
-    for (const VoxelKey key : keys) update.MarkEnd(key);
+  sectors.Clear();
+  for (const RaySegment& stretch : stretches) {
+    sectors.Add(stretch, RaySector::IndexOf(stretch.end - stretch.origin));
+  }
+  for (const auto& part : sectors.Mark(map.grid(), pool)) {
+    for (auto [key, grazed] : part) {
+      const auto entry = missed.find(key);
+      if (entry == missed.end()) continue;
+      grazed &= entry->second;
+      update.MarkEnd(key, grazed);
+    }
   }
 }
 

@@ -1,12 +1,10 @@
 #include "clearway/map/ray_caster.h"
 
-#include <algorithm>
-#include <array>
 #include <vector>
 
 #include "absl/container/flat_hash_set.h"
 #include "map/grazed_voxels.h"
-#include "map/ray_sector.h"
+#include "map/ray_sectors.h"
 
 namespace clearway {
 namespace {
@@ -62,20 +60,13 @@ struct RayCaster::Impl {
   ThreadPool& pool;
   // Of the cloud at hand; their memory is kept for the next.
   PreparedRays rays;
-  std::array<RaySector, RaySector::kCount> sectors;
+  RaySectors sectors;
 
   void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
 };
 
-// Each sector by one thread; the largest first, so that the threads end at about the same time.
 void RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
-  std::array<RaySector*, RaySector::kCount> order;
-  for (int s = 0; s < RaySector::kCount; ++s) order[s] = &sectors[s];
-  std::stable_sort(order.begin(), order.end(),
-                   [](const RaySector* a, const RaySector* b) { return a->size() > b->size(); });
-  std::array<std::span<const BitWindow::Block>, RaySector::kCount> marked;
-  pool.ParallelChunks(order.size(), 1,
-                      [&](int, std::size_t s, std::size_t) { marked[s] = order[s]->Mark(grid); });
+  const RaySectors::Marked marked = sectors.Mark(grid, pool);
   std::size_t count = 0;
   for (const auto& part : marked) count += part.size();
   update.Reserve(count);
@@ -99,10 +90,10 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
   if (cloud.ends.empty()) return update;
   PreparedRays& rays = impl_->rays;
   Prepare(grid, cloud, options, impl_->pool, rays);
-  for (RaySector& sector : impl_->sectors) sector.Clear();
+  impl_->sectors.Clear();
   const bool distinct = options.discretize && cloud.origins.size() == 1;
   ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
-    impl_->sectors[rays.sectors[i]].Add({OriginOf(cloud, i), rays.ends[i]});
+    impl_->sectors.Add({OriginOf(cloud, i), rays.ends[i]}, rays.sectors[i]);
   });
   impl_->MarkFree(grid, update);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -122,7 +113,7 @@ ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const Ray
     if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
     ending.push_back({OriginOf(cloud, i), rays.ends[i]});
   }
-  SpareGrazed(map, ending, options.grazing_m, impl_->pool, update);
+  SpareGrazed(map, ending, options.grazing_m, impl_->pool, impl_->sectors, update);
   return update;
 }
 

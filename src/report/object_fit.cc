@@ -9,19 +9,6 @@
 namespace clearway {
 namespace {
 
-// The rotations are close to each other.
-Pose MeanOf(const std::vector<Pose>& poses) {
-  const Pose first_inverse = Inverse(poses.front());
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
-  for (const Pose& pose : poses) {
-    translation += pose.translation;
-    turn += Log(first_inverse * pose).angular;
-  }
-  const double share = 1.0 / static_cast<double>(poses.size());
-  return {poses.front().rotation * Exp({share * turn, Eigen::Vector3d::Zero()}).rotation,
-          share * translation};
-}
-
 bool IsCovered(const VoxelMap& map_O, const Eigen::Vector3d& p_O) {
   const VoxelGrid& grid = map_O.grid();
   const VoxelKey middle = grid.KeyOf(p_O);
@@ -49,7 +36,7 @@ double ObjectFit::Completeness() const {
                   : static_cast<double>(covered) / static_cast<double>(met);
 }
 
-void ObjectFitter::Add(const SceneSnapshot& scene) {
+void ObjectFitter::Add(const SceneSnapshot& scene, const Pose& T_R_W) {
   for (const auto& object : scene.objects) {
     const auto T_W_B = world_->T_W_B(object->id, scene.stamp);
     if (!T_W_B || object->last_seen != scene.stamp) continue;
@@ -58,7 +45,7 @@ void ObjectFitter::Add(const SceneSnapshot& scene) {
     seen.object = object;
     seen.growth.push_back(object->map_O.occupied_count());
     if (!object->bridged) {
-      seen.T_O_B.push_back(Inverse(object->history.back().T_W_O) * *T_W_B);
+      seen.T_O_B.Add(Inverse(object->history.back().T_W_O) * T_R_W * *T_W_B);
     }
   }
 }
@@ -66,7 +53,7 @@ void ObjectFitter::Add(const SceneSnapshot& scene) {
 std::map<ObjectId, ObjectFit> ObjectFitter::Fits(const MetSurfaces& met) const {
   std::map<ObjectId, ObjectFit> fits;
   for (const auto& [id, seen] : seen_) {
-    if (!seen.T_O_B.empty()) fits[id] = FitOf(seen, met.Of(id));
+    if (!seen.T_O_B.Empty()) fits[id] = FitOf(seen, met.Of(id));
   }
   return fits;
 }
@@ -74,7 +61,7 @@ std::map<ObjectId, ObjectFit> ObjectFitter::Fits(const MetSurfaces& met) const {
 ObjectFit ObjectFitter::FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const {
   const Body& body = *world_->FindObject(seen.object->id);
   const VoxelMap& map_O = seen.object->map_O;
-  const Pose T_O_B = MeanOf(seen.T_O_B), T_B_O = Inverse(T_O_B);
+  const Pose T_O_B = seen.T_O_B.Value(), T_B_O = Inverse(T_O_B);
   ObjectFit fit;
   fit.voxel_m = map_O.grid().resolution_m();
   fit.growth = seen.growth;

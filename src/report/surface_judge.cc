@@ -13,8 +13,9 @@ SurfaceJudge::SurfaceJudge(Simulation simulation, std::vector<Duration> ahead)
 
 void SurfaceJudge::Add(std::size_t k, const Frame& frame, const SceneSnapshot& scene) {
   constexpr std::size_t kSolidsEvery = 5;
-  met_.Add(frame, simulation_.TrueT_W_S(k), scene);
-  objects_.Add(scene);
+  const Pose T_W_S = simulation_.TrueT_W_S(k);
+  met_.Add(frame, T_W_S, scene);
+  objects_.Add(scene, frame.T_W_S * Inverse(T_W_S));
   if (k % kSolidsEvery == 0) solids_.Add(scene, met_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "clearway/map/ray_caster.h"
 #include "scene/object_motion.h"
+#include "scene/view_registration.h"
 
 namespace clearway {
 namespace {
@@ -41,6 +42,36 @@ void SetMotion(MovingObject& object, const SceneParams& params) {
   object.bridged = false;
   object.bound = BoundOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
                          *object.solid, params);
+}
+
+// Where the object's last half second or so would carry it, once it is known for a few frames.
+std::optional<PoseGuess> GuessOfTrack(const MovingObject& object, Time stamp) {
+  constexpr std::size_t kFewest = 3;
+  constexpr Duration kBack = std::chrono::milliseconds(450);
+  const StampedPose& last = object.history.back();
+  if (object.history.size() < kFewest || stamp <= last.stamp) return std::nullopt;
+  const StampedPose* before = LastBefore(object, last.stamp);
+  while (before != object.history.data() && last.stamp - (before - 1)->stamp <= kBack) --before;
+  const double ahead_s = ToSeconds(stamp - last.stamp);
+  const Pose T_W_O = last.T_W_O * Exp(ahead_s * VelocityBetween(*before, last));
+  return PoseGuess{T_W_O, 0.05 + 1.0 * ahead_s, 0.01 + 0.1 * ahead_s};
+}
+
+// The source's T_W_O, mended by how the points fit the object's map and by how it went before, if
+// the source's poses are off.
+Pose Mended(const Pose& T_W_O, const MovingObject& object, const LabelledCloud& cloud,
+            std::span<const std::uint32_t> points, Time stamp, const SceneParams& params) {
+  const double error_m = params.object_pose_error_m, error_rad = params.object_pose_error_rad;
+  if ((error_m == 0 && error_rad == 0) || points.empty()) return T_W_O;
+  constexpr double kMeanOverSigma = 1.6;  // of the norm of three, over the sigma of one
+  constexpr double kLeast = 1e-3;
+  std::vector<PoseGuess> guesses = {{T_W_O, std::max(error_m / kMeanOverSigma, kLeast),
+                                     std::max(error_rad / kMeanOverSigma, kLeast)}};
+  if (const auto guess = GuessOfTrack(object, stamp)) guesses.push_back(*guess);
+  std::vector<Eigen::Vector3d> points_W;
+  points_W.reserve(points.size());
+  for (const std::uint32_t i : points) points_W.push_back(cloud.ends_W[i].cast<double>());
+  return RegisterView(object.map_O, points_W, guesses);
 }
 
 // The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
@@ -101,18 +132,20 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
   return object;
 }
 
-MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
-                   const SceneParams& params) {
+MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,
+                   Time stamp, const SceneParams& params) {
   if (clue.motion != nullptr) {
     const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
-    const Pose T_W_O = clue.motion->H_W * T_W_from;  // eq. 2
+    const Pose T_W_O =
+        Mended(clue.motion->H_W * T_W_from, object, cloud, clue.points, stamp, params);  // eq. 2
     object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
     if (!object.T_B_O) {
       object.T_B_O = Inverse(clue.pose->T_W_B) * PredictPose(object, stamp, params.horizon).T_W_O;
     }
-    const Pose T_W_O = clue.pose->T_W_B * *object.T_B_O;
+    const Pose T_W_O =
+        Mended(clue.pose->T_W_B * *object.T_B_O, object, cloud, clue.points, stamp, params);
     if (const StampedPose* before = LastBefore(object, stamp)) {
       object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
     }

@@ -22,10 +22,11 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
                         const SceneParams& params);
 
 // The object with O carried to the frame's stamp: by the motion (eq. 2), by the source's pose, or,
-// if it was seen without either, by prediction, which is marked. Poses older than params.history
-// are forgotten.
-MovingObject Moved(MovingObject object, const ObjectClue& clue, Time stamp,
-                   const SceneParams& params);
+// if it was seen without either, by prediction, which is marked. With params.object_pose_error_m a
+// motion or a pose is mended by how the points fit the object's map. Poses older than
+// params.history are forgotten.
+MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,
+                   Time stamp, const SceneParams& params);
 
 // Whether the object was unplaced for so long that nothing tells where O is in this frame: a motion
 // that starts, or a prediction that would have to reach, beyond the horizon. Its model has to be

@@ -50,8 +50,8 @@ std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, cons
   const bool seen = !clue.points.empty();
   const bool placed = known != nullptr && !OutOfReach(*known, clue, stamp, params);
   if (!placed && !seen) return std::nullopt;
-  MovingObject object =
-      placed ? Moved(*known, clue, stamp, params) : FirstSight(id, cloud, clue, stamp, params);
+  MovingObject object = placed ? Moved(*known, cloud, clue, stamp, params)
+                               : FirstSight(id, cloud, clue, stamp, params);
   if (seen) AddPoints(object, cloud, clue.points, stamp, params, pool);
   return object;
 }

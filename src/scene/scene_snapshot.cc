@@ -91,6 +91,8 @@ void ContentHasher::Add(const SceneParams& params) {
   }
   Add(static_cast<std::int64_t>(params.motion));
   Add(params.rest_distance_m);
+  Add(params.object_pose_error_m);
+  Add(params.object_pose_error_rad);
   Add(params.keep_distance_m);
   Add(params.bounds_W);
   Add(params.keep_out_W);

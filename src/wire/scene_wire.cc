@@ -75,6 +75,8 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_object_lifetime_ns(params.object_lifetime.count());
   proto->set_history_ns(params.history.count());
   proto->set_rest_distance_m(params.rest_distance_m);
+  proto->set_object_pose_error_m(params.object_pose_error_m);
+  proto->set_object_pose_error_rad(params.object_pose_error_rad);
   proto->set_keep_distance_m(params.keep_distance_m);
   Write(params.bounds_W, proto->mutable_bounds_world());
   for (const Aabb& box : params.keep_out_W) Write(box, proto->add_keep_out_world());
@@ -103,6 +105,8 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.object_lifetime = Duration(proto.object_lifetime_ns());
   params.history = Duration(proto.history_ns());
   params.rest_distance_m = proto.rest_distance_m();
+  params.object_pose_error_m = proto.object_pose_error_m();
+  params.object_pose_error_rad = proto.object_pose_error_rad();
   params.keep_distance_m = proto.keep_distance_m();
   params.bounds_W = read.Box("bounds_world", proto.has_bounds_world(), proto.bounds_world());
   for (const v1::AxisAlignedBox& box : proto.keep_out_world()) {

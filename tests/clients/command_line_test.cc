@@ -162,15 +162,48 @@ TEST(CommandLine, EvaluatesMapsAgainstTheSimulatorsTruth) {
     EXPECT_EQ(object["reconstruction"]["completeness"], 1) << object;
     EXPECT_LT(object["reconstruction"]["accuracy_m"], 0.05) << object;
     EXPECT_EQ(object["solids"][1]["ahead_s"], 1);
+    EXPECT_EQ(object["size"]["true_m"].size(), 3u);
+    EXPECT_GT(object["size"]["worst_difference_m"], 0);
   }
   EXPECT_GT(json["solids"][1]["f_score"], 0.8);
   EXPECT_EQ(json["static"]["residual_voxels"], 0);
   EXPECT_EQ(json["static"]["free_precision"], 1);
   const Finished text = Clearway({"evaluate", "sim:small", "--frames", "3"});
-  for (const char* told : {"predictions", "covered", "F-scores", "precision", "nothing static"}) {
+  for (const char* told :
+       {"predictions", "covered", "F-scores", "precision", "nothing static", "map / box"}) {
     EXPECT_THAT(text.out, HasSubstr(told));
   }
   EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
+}
+
+TEST(CommandLine, EvaluatesOnAPageThatNeedsNothingElse) {
+  const TemporaryFolder folder;
+  const std::string page = folder / "small.html";
+  const Finished dut =
+      Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const std::string html = BytesOf(page);
+  for (const char* part : {"<!doctype html>", "<svg", "maps grow", "map / box", "</html>"}) {
+    EXPECT_THAT(html, HasSubstr(part));
+  }
+  const std::string image = "src='data:image/png;base64,";
+  EXPECT_NE(html.find(image, html.find(image) + 1), std::string::npos);  // two
+  EXPECT_EQ(html.find("src='http"), std::string::npos);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  const Finished nowhere =
+      Clearway({"evaluate", "sim:small", "--frames", "2", "--html", folder / "missing/small.html"});
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_THAT(nowhere.err, HasSubstr("missing/small.html"));
+}
+
+TEST(CommandLine, EvaluatesWithWrongLabels) {
+  const auto p95_m = [](const std::string& share) {
+    const Finished dut =
+        Clearway({"evaluate", "sim:small", "--frames", "30", "--wrong-labels", share, "--json"});
+    const auto json = nlohmann::json::parse(dut.out);
+    return json["objects"][0]["reconstruction"]["p95_m"].get<double>();
+  };
+  EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
 }
 
 TEST(CommandLine, EvaluatesOnlyWhatTellsTheTruth) {

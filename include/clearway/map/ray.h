@@ -56,10 +56,6 @@ RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit);
-// The same while visit(VoxelKey) is true.
-template <class Visit>
-void WalkRayWhile(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
-                  Visit&& visit);
 
 // Where a ray ends after RayOptions are applied to it.
 struct LimitedRay {
@@ -74,18 +70,10 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit) {
-  WalkRayWhile(grid, origin, end, [&](VoxelKey key) {
-    visit(key);
-    return true;
-  });
-}
-
-template <class Visit>
-void WalkRayWhile(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
-                  Visit&& visit) {
   RayStart ray = StartRay(grid, origin, end);
   VoxelKey& key = ray.key;
-  if (key == ray.end || !visit(key)) return;
+  if (key == ray.end) return;
+  visit(key);
   std::int32_t* const index[3] = {&key.x, &key.y, &key.z};
   auto& t_max = ray.t_max;
   while (true) {
@@ -96,7 +84,8 @@ void WalkRayWhile(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
     if (key == ray.end) return;
     // Rounding made the ray miss its end voxel: OctoMap stops where the segment's length is used
     // up.
-    if (std::min({t_max[0], t_max[1], t_max[2]}) > ray.length_m || !visit(key)) return;
+    if (std::min({t_max[0], t_max[1], t_max[2]}) > ray.length_m) return;
+    visit(key);
   }
 }
 

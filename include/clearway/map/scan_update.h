@@ -26,6 +26,7 @@ class ScanUpdate {
     block.hit.Set(IndexInBlock(key));
     block.end.Set(IndexInBlock(key));
   }
+  void MarkEnd(BlockKey key, const BlockMask& mask) { BlockFor(key).end |= mask; }
   void MarkEnd(VoxelKey key) { BlockFor(BlockOf(key)).end.Set(IndexInBlock(key)); }
 
   bool Empty() const { return blocks_.empty(); }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "clearway/report/mean_pose.h"
 #include "clearway/report/met_surfaces.h"
 #include "clearway/scene/scene_snapshot.h"
 #include "clearway/sim/world.h"
@@ -28,15 +29,16 @@ struct ObjectFit {
   double Completeness() const;  // covered of met; NaN without any
 };
 
-// Collects the newest map of each object. Where its frame O lies in the true body is taken to be
-// the mean over the frames since the map was begun: what the source gets wrong about the object's
-// place is no fault of the map's. One thread.
+// Collects the newest map of each object. Where its frame O lies in the true body, as scans show
+// that, is taken to be the mean over the frames since the map was begun: what the source gets wrong
+// about the object's place, and the sensor's, is no fault of the map's. One thread.
 class ObjectFitter {
  public:
   explicit ObjectFitter(std::shared_ptr<const World> world) : world_(std::move(world)) {}
 
-  // The version after a frame.
-  void Add(const SceneSnapshot& scene);
+  // The version after a frame. T_R_W: from W to where the frame's scan shows it, by what the source
+  // gets wrong about the sensor's pose.
+  void Add(const SceneSnapshot& scene, const Pose& T_R_W);
 
   // Of every object seen so far, dropped ones too.
   std::map<ObjectId, ObjectFit> Fits(const MetSurfaces& met) const;
@@ -44,7 +46,7 @@ class ObjectFitter {
  private:
   struct Seen {
     std::shared_ptr<const MovingObject> object;
-    std::vector<Pose> T_O_B;  // by frame
+    MeanPose T_O_B;
     std::vector<std::int64_t> growth;
   };
   ObjectFit FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const;

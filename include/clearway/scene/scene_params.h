@@ -42,6 +42,10 @@ struct SceneParams {
   // An object that stayed within this distance for kRestWindow is at rest, whatever its last motion
   // says: that is the noise of SLAM. 0: at rest is only what did not move at all (II-E as printed).
   double rest_distance_m = 0;
+  // How far off the source's poses and motions of objects are, on average over frames: metres, and
+  // the angle. If one of them is not zero, each view of an object is registered to the object's own
+  // map, and the object is where it fits. 0 and 0: objects are where the source says.
+  double object_pose_error_m = 0, object_pose_error_rad = 0;
 
   // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
   // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of

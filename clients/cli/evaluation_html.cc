@@ -1,0 +1,124 @@
+#include "cli/evaluation_html.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "clearway/report/object_sheet.h"
+#include "clearway/report/top_view.h"
+#include "cli/svg_plot.h"
+
+namespace clearway::cli {
+namespace {
+
+std::string LabelOf(const TrueSource& source, ObjectId id) {
+  return absl::StrCat(id, " ", NameOf(source, id));
+}
+
+// A value of each kAhead, where there is one.
+PlotLine LineByAhead(const std::string& name, const std::vector<PredictionErrors>& errors,
+                     const std::function<double(const PredictionErrors&)>& value) {
+  PlotLine line{name, {}};
+  for (const PredictionErrors& e : errors) {
+    if (!std::isnan(value(e))) line.points.emplace_back(ToSeconds(e.ahead), value(e));
+  }
+  return line;
+}
+
+Plot PlotOfPredictions(const TrueSource& source, const Evaluation& found) {
+  Plot plot{
+      "How far objects are from where they were predicted", "seconds ahead", "median, m", {}, 0.1};
+  for (const auto& [id, errors] : found.predictions) {
+    plot.lines.push_back(LineByAhead(LabelOf(source, id), errors, &PredictionErrors::Median));
+  }
+  return plot;
+}
+
+Plot PlotOfBounds(const Evaluation& found) {
+  const std::vector<PredictionErrors> all = Together(found.predictions);
+  Plot plot{"How often they were no farther than was said (0.95 is meant)",
+            "seconds ahead",
+            "share",
+            {},
+            1};
+  plot.lines.push_back(LineByAhead("all objects", all, &PredictionErrors::Within));
+  plot.lines.push_back(LineByAhead("meant", all, [](const PredictionErrors&) { return kMost; }));
+  return plot;
+}
+
+Plot PlotOfGrowth(const TrueSource& source, const Evaluation& found) {
+  Plot plot{
+      "How the objects' maps grow", "seconds since the first frame", "occupied voxels", {}, 1};
+  for (const auto& [id, points] : found.growth) {
+    plot.lines.push_back({LabelOf(source, id), points});
+  }
+  return plot;
+}
+
+// An <img> of what `write` makes.
+absl::StatusOr<std::string> ImageOf(const std::string& png_file,
+                                    const std::function<absl::Status(const std::string&)>& write) {
+  if (absl::Status status = write(png_file); !status.ok()) return status;
+  std::ifstream in(png_file, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  std::error_code ignored;
+  std::filesystem::remove(png_file, ignored);
+  return absl::StrCat("<img style='max-width: 100%' src='data:image/png;base64,",
+                      absl::Base64Escape(bytes), "'>\n");
+}
+
+absl::StatusOr<std::string> PicturesOf(const std::string& html_file, const TrueSource& source,
+                                       const Evaluation& found) {
+  SceneSnapshot with_all_objects = *found.scene;
+  with_all_objects.objects.clear();
+  ObjectSheetOptions sheet;
+  sheet.title = "The objects as they were last seen";
+  for (const auto& [id, object] : found.newest) {
+    with_all_objects.objects.push_back(object);
+    sheet.names[id] = LabelOf(source, id);
+  }
+  const auto objects = ImageOf(html_file + ".png", [&](const std::string& file) {
+    return WriteObjectSheet(with_all_objects, sheet, file);
+  });
+  if (!objects.ok()) return objects.status();
+  TopViewOptions view;
+  view.title = "The scene after the last frame";
+  for (const auto& object : found.scene->objects) {
+    view.names[object->id] = LabelOf(source, object->id);
+  }
+  const auto scene = ImageOf(html_file + ".png", [&](const std::string& file) {
+    return WriteTopView(*found.scene, view, file);
+  });
+  if (!scene.ok()) return scene.status();
+  return absl::StrCat(*objects, *scene);
+}
+
+}  // namespace
+
+absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
+                       const Evaluation& found) {
+  const auto pictures = PicturesOf(html_file, source, found);
+  if (!pictures.ok()) return pictures.status();
+  std::ostringstream tables;
+  PrintText(tables, source, found);
+  std::ofstream out(html_file, std::ios::binary);
+  out << "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: "
+      << Escaped(source.frames.description)
+      << "</title>\n<body style='font-family: sans-serif; max-width: 1200px; margin: auto'>\n"
+      << "<h1>Maps and predictions against the truth</h1>\n"
+      << SvgOf(PlotOfPredictions(source, found)) << SvgOf(PlotOfBounds(found))
+      << SvgOf(PlotOfGrowth(source, found)) << "<pre>" << Escaped(tables.str()) << "</pre>\n"
+      << *pictures << "</body></html>\n";
+  out.flush();
+  if (out) return absl::OkStatus();
+  return absl::InternalError(absl::StrCat(html_file, ": cannot be written"));
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,80 @@
+#include "cli/evaluation.h"
+#include "cli/json.h"
+
+namespace clearway::cli {
+namespace {
+
+// No number becomes null.
+Json ToJson(const ObjectFit& fit) {
+  return {{"occupied_voxels", fit.errors_m.size()},
+          {"voxel_m", fit.voxel_m},
+          {"accuracy_m", fit.Accuracy_m()},
+          {"p95_m", fit.Quantile_m(kMost)},
+          {"met_pieces", fit.met},
+          {"completeness", fit.Completeness()},
+          {"growth_voxels", fit.growth}};
+}
+
+Json ToJson(const StaticFit& fit) {
+  return {
+      {"occupied_voxels", fit.occupied},         {"free_voxels", fit.free},
+      {"residual_voxels", fit.Residual()},       {"occupied_precision", fit.OccupiedPrecision()},
+      {"occupied_recall", fit.OccupiedRecall()}, {"free_precision", fit.FreePrecision()},
+      {"free_recall", fit.FreeRecall()}};
+}
+
+Json ToJson(const std::vector<PredictionErrors>& of_object) {
+  Json json = Json::array();
+  for (const PredictionErrors& e : of_object) {
+    json.push_back({{"ahead_s", ToSeconds(e.ahead)},
+                    {"count", e.errors_m.size()},
+                    {"median_m", e.Median()},
+                    {"p95_m", e.Quantile(kMost)},
+                    {"median_bound_m", e.MedianBound()},
+                    {"within_bound", e.Within()}});
+  }
+  return json;
+}
+
+Json ToJson(const BoxFit& size) {
+  return {{"true_m", cli::ToJson(size.true_m)},
+          {"mapped_m", cli::ToJson(size.mapped_m)},
+          {"worst_difference_m", size.WorstDifference_m()}};
+}
+
+// By kAhead.
+Json ToJson(const std::vector<SolidOverlap>& overlaps) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    json.push_back({{"ahead_s", ToSeconds(kAhead[i])},
+                    {"precision", overlaps[i].Precision()},
+                    {"recall", overlaps[i].Recall()},
+                    {"f_score", overlaps[i].FScore()}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  Json json = {{"source", source.frames.description},
+               {"truth", source.truth.description},
+               {"frames", source.frames.frame_count},
+               {"objects", Json::array()}};
+  for (const auto& [id, of_object] : found.predictions) {
+    Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", ToJson(of_object)}};
+    const auto size = found.sizes.find(id);
+    if (size != found.sizes.end()) object["size"] = ToJson(size->second);
+    const auto fit = found.fits.find(id);
+    if (fit != found.fits.end()) object["reconstruction"] = ToJson(fit->second);
+    const auto solids = found.solids.find(id);
+    if (solids != found.solids.end()) object["solids"] = ToJson(solids->second);
+    json["objects"].push_back(object);
+  }
+  json["prediction"] = ToJson(Together(found.predictions));
+  if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
+  if (found.static_fit) json["static"] = ToJson(*found.static_fit);
+  Print(out, json);
+}
+
+}  // namespace clearway::cli

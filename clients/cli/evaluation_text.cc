@@ -1,0 +1,135 @@
+#include <cmath>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/report/table.h"
+#include "cli/evaluation.h"
+#include "cli/text.h"
+
+namespace clearway::cli {
+namespace {
+
+std::string TextOf(double value, int digits) {
+  return std::isnan(value) ? "-" : Fixed(value, digits);
+}
+
+void PrintPredictions(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "How far from its true place each object is predicted, in metres: median, and what 95 % "
+         "of "
+         "the\npredictions do not exceed.\n\n";
+  std::vector<std::string> header = {"id", "what", "predictions"};
+  for (const Duration ahead : kAhead) {
+    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
+    header.push_back("95 %");
+  }
+  Table table(header);
+  for (const auto& [id, of_object] : found.predictions) {
+    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id),
+                                    absl::StrCat(of_object[0].errors_m.size())};
+    for (const PredictionErrors& e : of_object) {
+      row.push_back(TextOf(e.Median(), 2));
+      row.push_back(TextOf(e.Quantile(kMost), 2));
+    }
+    table.AddRow(row);
+  }
+  out << table.ToString();
+}
+
+void PrintBounds(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "\nHow far it was said to be at most, 95 times of 100, in metres: median; and how often "
+         "it was no\nfarther.\n\n";
+  std::vector<std::string> header = {"id", "what"};
+  for (const Duration ahead : kAhead) {
+    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
+    header.push_back("within");
+  }
+  Table table(header);
+  const auto add = [&](const std::string& id, const std::string& name,
+                       const std::vector<PredictionErrors>& errors) {
+    std::vector<std::string> row = {id, name};
+    for (const PredictionErrors& e : errors) {
+      row.push_back(TextOf(e.MedianBound(), 2));
+      row.push_back(TextOf(e.Within(), 3));
+    }
+    table.AddRow(row);
+  };
+  for (const auto& [id, of_object] : found.predictions) {
+    add(absl::StrCat(id), NameOf(source, id), of_object);
+  }
+  if (!found.predictions.empty()) add("", "all", Together(found.predictions));
+  out << table.ToString();
+}
+
+void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "\nHow far from the true surface the occupied voxels of each object are, in metres: "
+         "median, and\nwhat 95 % do not exceed; and how much of the surface that rays met has "
+         "voxels.\n\n";
+  Table table({"id", "what", "frames", "voxels", "error", "95 %", "covered"});
+  for (const auto& [id, fit] : found.fits) {
+    table.AddRow({absl::StrCat(id), NameOf(source, id), absl::StrCat(fit.growth.size()),
+                  absl::StrCat(fit.errors_m.size()), TextOf(fit.Accuracy_m(), 3),
+                  TextOf(fit.Quantile_m(kMost), 3), TextOf(fit.Completeness(), 3)});
+  }
+  out << table.ToString();
+}
+
+void PrintSizes(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "\nHow large the maps of the objects are along the axes of their true boxes, in metres: "
+         "map / box.\n\n";
+  Table table({"id", "what", "length", "width", "height"});
+  for (const auto& [id, size] : found.sizes) {
+    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id)};
+    for (int axis = 0; axis < 3; ++axis) {
+      row.push_back(
+          absl::StrCat(TextOf(size.mapped_m[axis], 2), " / ", TextOf(size.true_m[axis], 2)));
+    }
+    table.AddRow(row);
+  }
+  out << table.ToString();
+}
+
+void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << "\nHow well the solids that are predicted agree with the true ones to within a voxel: "
+         "F-scores.\n\n";
+  std::vector<std::string> header = {"id", "what"};
+  for (const Duration ahead : kAhead) header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
+  Table table(header);
+  const auto add = [&](const std::string& id, const std::string& name,
+                       const std::vector<SolidOverlap>& overlaps) {
+    std::vector<std::string> row = {id, name};
+    for (const SolidOverlap& overlap : overlaps) row.push_back(TextOf(overlap.FScore(), 3));
+    table.AddRow(row);
+  };
+  for (const auto& [id, overlaps] : found.solids) {
+    add(absl::StrCat(id), NameOf(source, id), overlaps);
+  }
+  add("", "all", Together(found.solids));
+  out << table.ToString();
+}
+
+void PrintStatic(std::ostream& out, const StaticFit& fit) {
+  out << "\nThe static map, against the true world to within a voxel: of the voxels that it says "
+         "are so, how\nmany are (precision); of the observed ones that are so, how many it says "
+         "(recall).\n\n";
+  Table table({"", "voxels", "precision", "recall"});
+  table.AddRow({"occupied", absl::StrCat(fit.occupied), TextOf(fit.OccupiedPrecision(), 4),
+                TextOf(fit.OccupiedRecall(), 4)});
+  table.AddRow({"free", absl::StrCat(fit.free), TextOf(fit.FreePrecision(), 4),
+                TextOf(fit.FreeRecall(), 4)});
+  out << table.ToString() << "\n"
+      << fit.Residual() << " occupied voxels are where nothing static is.\n";
+}
+
+}  // namespace
+
+void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  out << source.frames.description << "\n\n";
+  PrintPredictions(out, source, found);
+  PrintBounds(out, source, found);
+  if (!found.sizes.empty()) PrintSizes(out, source, found);
+  if (!found.fits.empty()) PrintFits(out, source, found);
+  if (!found.solids.empty()) PrintSolids(out, source, found);
+  if (found.static_fit) PrintStatic(out, *found.static_fit);
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,50 @@
+#include "map/surface_layers.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace clearway {
+namespace {
+
+// Two blocks along each axis, half full; every voxel an end.
+TEST(SurfaceLayers, AreAcrossAxesWithoutAnOccupiedNeighbour) {
+  testing_support::Random random(3);
+  VoxelMap map(0.1);
+  ScanUpdate update;
+  const auto for_each = [](int from, int to, const auto& visit) {
+    for (int i = from; i < to; ++i) {
+      for (int j = from; j < to; ++j) {
+        for (int k = from; k < to; ++k) visit(VoxelKey{i, j, k});
+      }
+    }
+  };
+  for_each(-9, 9, [&](VoxelKey key) {
+    if (random.Uniform(0, 1) < 0.3) map.Set(key, map.model().clamp_max);
+  });
+  for_each(-8, 8, [&](VoxelKey key) { update.MarkEnd(key); });
+  ThreadPool pool(2);
+  const SurfaceLayers dut(map, update, pool);
+  for_each(-8, 8, [&](VoxelKey key) {
+    const auto occupied = [&](int x, int y, int z) {
+      return map.State({key.x + x, key.y + y, key.z + z}) == VoxelState::kOccupied;
+    };
+    unsigned expected = 0;
+    if (!occupied(-1, 0, 0) && !occupied(1, 0, 0)) expected |= 1;
+    if (!occupied(0, -1, 0) && !occupied(0, 1, 0)) expected |= 2;
+    if (!occupied(0, 0, -1) && !occupied(0, 0, 1)) expected |= 4;
+    EXPECT_EQ(AxesAcross(dut.In(BlockOf(key)), key), expected)
+        << key.x << " " << key.y << " " << key.z;
+  });
+}
+
+TEST(SurfaceLayers, OfAnEmptyMapAreAcrossAllAxes) {
+  ScanUpdate update;
+  update.MarkEnd(VoxelKey{3, 4, 5});
+  ThreadPool pool(1);
+  const SurfaceLayers dut(VoxelMap(0.1), update, pool);
+  EXPECT_EQ(AxesAcross(dut.In({0, 0, 0}), {3, 4, 5}), 7u);
+}
+
+}  // namespace
+}  // namespace clearway
