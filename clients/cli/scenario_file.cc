@@ -77,6 +77,9 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
   if (!std::holds_alternative<ArmSpace>(task.space) && !fields.Has("max_speed_mps")) {
     return fields.Error("max_speed_mps", "missing");
   }
+  if (Turns(task.space) && !fields.Has("max_turn_radps")) {
+    return fields.Error("max_turn_radps", "missing");
+  }
   Duration start{};
   for (const auto& [name, duration] :
        {std::pair{"start_s", &start}, {"time_limit_s", &task.time_limit}}) {

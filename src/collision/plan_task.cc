@@ -73,12 +73,6 @@ absl::Status CheckSpace(const ConfigurationSpace& space, const Robot& robot) {
   return ValidatePose("arm.world_from_base", arm->T_W_B, kMost_m);
 }
 
-bool Turns(const ConfigurationSpace& space) {
-  const auto* plane = std::get_if<PlaneSpace>(&space);
-  const auto* flight = std::get_if<FlightSpace>(&space);
-  return (plane != nullptr && plane->turns) || (flight != nullptr && flight->turns);
-}
-
 // Of the axes that configurations have: x and y, and of those that fly z.
 absl::Status CheckArea(const PlanTask& task) {
   if (std::holds_alternative<ArmSpace>(task.space)) return absl::OkStatus();
@@ -132,6 +126,12 @@ absl::Status CheckConfiguration(const std::string& field, const std::vector<doub
 }
 
 }  // namespace
+
+bool Turns(const ConfigurationSpace& space) {
+  const auto* plane = std::get_if<PlaneSpace>(&space);
+  const auto* flight = std::get_if<FlightSpace>(&space);
+  return (plane != nullptr && plane->turns) || (flight != nullptr && flight->turns);
+}
 
 std::size_t DimensionOf(const ConfigurationSpace& space) {
   if (const auto* plane = std::get_if<PlaneSpace>(&space)) return plane->turns ? 3 : 2;

@@ -135,7 +135,8 @@ bool AnytimeSearch::AddPlacesBy(double latest_s, std::size_t count, std::size_t 
     } else {
       SampleNearPlaces(part);
     }
-    if (ArrivalBy(part) >= std::min(BestArrival(), latest_s)) continue;
+    const double arrival_s = ArrivalBy(part);
+    if (arrival_s > latest_s || arrival_s >= BestArrival()) continue;
     roadmap_.Add(part);
     ++added;
   }
@@ -170,10 +171,11 @@ void AnytimeSearch::JoinAlongPath() {
   }
 }
 
-bool AnytimeSearch::GoalsAreTaken() {
-  return std::ranges::none_of(goals_, [&](std::size_t goal) {
+bool AnytimeSearch::GoalsAreTaken(const ob::PlannerTerminationCondition& until) {
+  return std::ranges::all_of(goals_, [&](std::size_t goal) {
     const ob::State* const part = roadmap_.Place(goal);
-    return checks_.IsEverFree(part, ArrivalBy(part), latest_s_);
+    const double free_s = checks_.FreeFromClosely(part, ArrivalBy(part), latest_s_, until);
+    return std::isinf(free_s);
   });
 }
 

@@ -53,8 +53,8 @@ class AnytimeSearch {
   bool led() const { return !path_.empty(); }
   double Arrival() const { return found() ? BestArrival() : kNever_s; }
   std::shared_ptr<ompl::geometric::PathGeometric> Path() const;
-  // Whether no goal is free, whenever one looks from when it can be reached on.
-  bool GoalsAreTaken();
+  // Whether no goal is free, whenever it is looked at from when it can be reached on, every 20 ms.
+  bool GoalsAreTaken(const ompl::base::PlannerTerminationCondition& until);
 
   std::size_t places() const { return roadmap_.size(); }
   std::size_t ways_asked() const { return checks_.ways_asked(); }

@@ -90,7 +90,10 @@ double IntervalSearch::FreeFrom(std::size_t place, double arrival_s) {
   for (const auto& [from_s, until_s] : taken_[place]) {
     if (from_s <= arrival_s && arrival_s < until_s) return until_s;
   }
-  const double free_s = checks_.FreeFrom(roadmap_.Place(place), arrival_s);
+  const bool goal = std::ranges::find(question_->goals, place) != question_->goals.end();
+  const double free_s = goal ? checks_.FreeFromClosely(roadmap_.Place(place), arrival_s,
+                                                       space_.latest_s(), question_->cancelled)
+                             : checks_.FreeFrom(roadmap_.Place(place), arrival_s);
   if (free_s > arrival_s) taken_[place].emplace_back(arrival_s, free_s);
   return free_s;
 }

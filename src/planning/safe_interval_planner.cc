@@ -125,6 +125,9 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   if (!impl_->search.has_start()) return ob::PlannerStatus::INVALID_START;
   AddGoals(until);
   if (impl_->search.goals() == 0) return ob::PlannerStatus::INVALID_GOAL;
+  if (!impl_->search.found() && impl_->search.GoalsAreTaken(until)) {
+    return ob::PlannerStatus::INVALID_GOAL;
+  }
   // After the first path the same places are searched for the best one; after that they yield no
   // more.
   bool more = true;
@@ -146,7 +149,6 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
     }
   }
   if (impl_->search.found()) return ob::PlannerStatus::EXACT_SOLUTION;
-  if (impl_->search.GoalsAreTaken()) return ob::PlannerStatus::INVALID_GOAL;
   if (!more) return ob::PlannerStatus::ABORT;
   return ob::PlannerStatus::TIMEOUT;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "planning/tight_limit.h"
 
 namespace clearway {
 
@@ -21,6 +22,13 @@ bool IsWithin(const ob::StateSpace& space, const ob::State* state) {
          space.satisfiesBounds(state);
 }
 
+// In seconds of the space.
+double LatestArrival(const SpaceTimeStateSpace& space, const GoalOptions& options,
+                     double earliest_s) {
+  if (!options.latest) return space.latest_s();
+  return std::min(LatestSeconds(*options.latest, earliest_s), space.latest_s());
+}
+
 }  // namespace
 
 GoalPoseBefore::GoalPoseBefore(const ob::SpaceInformationPtr& si, const ob::State* start,
@@ -30,8 +38,7 @@ GoalPoseBefore::GoalPoseBefore(const ob::SpaceInformationPtr& si, const ob::Stat
       goal_part_(space_time_->space()->cloneState(goal_part)),
       earliest_s_(SpaceTimeStateSpace::SecondsOf(start) +
                   space_time_->MinSeconds(SpaceTimeStateSpace::SpacePart(start), goal_part)),
-      latest_s_(options.latest ? std::min(ToSeconds(*options.latest), space_time_->latest_s())
-                               : space_time_->latest_s()) {
+      latest_s_(LatestArrival(*space_time_, options, earliest_s_)) {
   setThreshold(options.tolerance);
 }
 
@@ -73,11 +80,9 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
   if (!IsWithin(*space_time->space(), goal_part)) {
     return absl::InvalidArgumentError("goal_part: outside the space's bounds");
   }
-  const double latest_s = options.latest
-                              ? std::min(ToSeconds(*options.latest), space_time->latest_s())
-                              : space_time->latest_s();
   const double arrival_s = SpaceTimeStateSpace::SecondsOf(start) +
                            space_time->MinSeconds(SpaceTimeStateSpace::SpacePart(start), goal_part);
+  const double latest_s = LatestArrival(*space_time, options, arrival_s);
   if (!(arrival_s <= latest_s)) {
     return absl::InvalidArgumentError(absl::StrCat("goal_part: reached at full speed at ",
                                                    arrival_s, " s, the limit is ", latest_s, " s"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "clearway/planning/space_time_setup.h"
 #include "planning/task_space.h"
 #include "planning/tight_limit.h"
@@ -33,13 +34,14 @@ absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
   const ob::State* const goal_part = SpaceTimeStateSpace::SpacePart(goal.get());
   const double arrival_s =
       space->MinSeconds(SpaceTimeStateSpace::SpacePart(start.get()), goal_part);
-  if (arrival_s > ToSeconds(task.time_limit)) {
-    return absl::InvalidArgumentError(absl::StrCat("time_limit_s is ", ToSeconds(task.time_limit),
-                                                   "; at full speed the goal is reached after ",
-                                                   arrival_s, " s"));
+  const double latest_s = LatestSeconds(task.time_limit, arrival_s);
+  if (arrival_s > latest_s) {
+    return absl::InvalidArgumentError(
+        absl::StrFormat("time_limit_s is %.9g; at full speed the goal is reached after %.9g s",
+                        ToSeconds(task.time_limit), arrival_s));
   }
   const double ever_s = ToSeconds(TimeFromNanoseconds(kFarthest_ns) - task.start_time);
-  const double space_s = std::min(ever_s, LeadingSeconds(ToSeconds(task.time_limit), arrival_s));
+  const double space_s = std::min(ever_s, LeadingSeconds(latest_s, arrival_s));
   space->as<ob::TimeStateSpace>(1)->setBounds(0, space_s);
   PlanningOptions options;
   options.check = task.options.check;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "clearway/planning/space_information.h"
 
@@ -16,6 +17,9 @@ constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
 // Later it is looked again after this part of what it has been there for. At places more often than
 // on ways: of a place the answer is kept, of ways others are asked about, at other times.
 constexpr double kOfWhatPassedAtPlaces = 1.0 / 64, kOfWhatPassedOnWays = 1.0 / 8;
+// The same where no gap is to be missed, and at how many times at once.
+constexpr double kLookClosely_s = 0.02;
+constexpr std::size_t kFirstLooks = 16, kMostLooks = 1024;
 // Without proofs: how finely the end of a wait is looked for.
 constexpr double kWaitWithin_s = 0.02;
 
@@ -70,6 +74,39 @@ double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
   return IsFreeAt(at_s) ? at_s : FreeAgain(at_s, latest_s_, kOfWhatPassedAtPlaces);
 }
 
+double TimedChecks::FreeFromClosely(const ob::State* part, double at_s, double until_s,
+                                    const std::function<bool()>& cancelled) {
+  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
+  std::vector<double> looks_s;
+  std::size_t most = kFirstLooks;
+  for (bool more = true; more; most = std::min(2 * most, kMostLooks)) {
+    for (looks_s.clear(); more && looks_s.size() < most;) {
+      looks_s.push_back(at_s);
+      more = at_s < until_s;
+      at_s = std::min(at_s + kLookClosely_s, until_s);
+    }
+    const Looks looks = LookAt(looks_s);
+    if (looks.free) return looks_s[*looks.free];
+    if (cancelled()) return looks_s.front();
+    if (looks.forever) break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+TimedChecks::Looks TimedChecks::LookAt(const std::vector<double>& seconds) {
+  Looks looks;
+  if (query_ == nullptr) {
+    const auto free = std::ranges::find_if(seconds, [&](double at_s) { return IsFreeAt(at_s); });
+    if (free != seconds.end()) looks.free = free - seconds.begin();
+    return looks;
+  }
+  const std::vector<StateAnswer> answers = query_->CheckPlace(first_, seconds);
+  const auto free = std::ranges::find(answers, SpaceStatus::kFree, &StateAnswer::status);
+  if (free != answers.end()) looks.free = free - answers.begin();
+  looks.forever = answers[0].status == SpaceStatus::kOccupied && answers[0].object == kStaticLabel;
+  return looks;
+}
+
 WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part, double begin_s,
                            double end_s) {
   ++ways_asked_;
@@ -92,11 +129,6 @@ WayAnswer TimedChecks::Way(const ob::State* from_part, const ob::State* to_part,
   const double share = end_s > begin_s ? after_s / (end_s - begin_s) : 0;
   space_->interpolate(first_, second_, std::clamp(share, 0.0, 1.0), first_);
   return {false, false, FreeAgain(begin_s + after_s, latest_s_, kOfWhatPassedOnWays) - after_s};
-}
-
-bool TimedChecks::IsEverFree(const ob::State* part, double from_s, double until_s) {
-  space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(from_s) || !std::isinf(FreeAgain(from_s, until_s, kOfWhatPassedAtPlaces));
 }
 
 bool TimedChecks::IsFreeAt(double seconds) {

@@ -3,7 +3,10 @@
 
 #include <ompl/base/SpaceInformation.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "clearway/planning/space_time.h"
 #include "clearway/planning/state_query.h"
@@ -31,8 +34,9 @@ class TimedChecks {
   // Not before then it is worth trying to be at the place: at `at_s`, if nothing is known to be in
   // the way there; infinity, if something is seen to be in the way from then on.
   double FreeFrom(const ompl::base::State* part, double at_s);
-  // Whether it is seen to be free at some time.
-  bool IsEverFree(const ompl::base::State* part, double from_s, double until_s);
+  // The same, looked at every 20 ms: hardly a gap is missed. If cancelled, what was found by then.
+  double FreeFromClosely(const ompl::base::State* part, double at_s, double until_s,
+                         const std::function<bool()>& cancelled);
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
                 double begin_s, double end_s);
   std::size_t ways_asked() const { return ways_asked_; }
@@ -40,7 +44,13 @@ class TimedChecks {
  private:
   bool IsFree(double begin_s, double end_s);  // from first_ to second_
   double WaitByHalves(double from_s, double until_s);
-  bool IsFreeAt(double seconds);                                              // what is at first_
+  // What is seen of a place at some times.
+  struct Looks {
+    std::optional<std::size_t> free;  // the first that found nothing in the way
+    bool forever = false;             // what stands still is in the way
+  };
+  Looks LookAt(const std::vector<double>& seconds);                           // at first_
+  bool IsFreeAt(double seconds);                                              // the same
   double FreeAgain(double blocked_s, double until_s, double of_what_passed);  // the same
 
   ompl::base::SpaceInformationPtr si_;

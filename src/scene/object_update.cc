@@ -9,6 +9,9 @@
 namespace clearway {
 namespace {
 
+// By so much stamps of motions may be off.
+constexpr Duration kNoGap = std::chrono::milliseconds(10);
+
 // Poses to come whose time has come are forgotten: the new one counts.
 void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.t_k() == pose.stamp) {
@@ -33,12 +36,13 @@ const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
   return nullptr;
 }
 
-// After a pose that is no prediction.
-void SetMotion(MovingObject& object, const SceneParams& params) {
+// After a pose that is no prediction, be it a motion from a predicted one: then what was missed in
+// between is not known.
+void SetMotion(MovingObject& object, bool after_gap, const SceneParams& params) {
   if (object.velocity_O) {
     object.velocity_O = GoesOn(object.history, *object.velocity_O, *object.solid, params);
   }
-  if (object.bridged) object.tracked_since = object.t_k();
+  if (object.bridged || after_gap) object.tracked_since = object.t_k();
   object.bridged = false;
   object.bound = BoundOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
                          *object.solid, params);
@@ -134,7 +138,9 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
 
 MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,
                    Time stamp, const SceneParams& params) {
+  bool after_gap = false;
   if (clue.motion != nullptr) {
+    after_gap = clue.motion->from - object.t_k() > kNoGap;
     const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
     const Pose T_W_O =
         Mended(clue.motion->H_W * T_W_from, object, cloud, clue.points, stamp, params);  // eq. 2
@@ -154,13 +160,13 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     // Bridged to its future's end or beyond it, it goes on as it did there.
     const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
     if (outlived) object.velocity_O = object.LastVelocity();
-    if (object.velocity_O && !(object.LastVelocity() == Twist{})) {
-      object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.t_k()));
+    if (object.velocity_O && (outlived || object.future.empty())) {
+      object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.LastPose().stamp));
     }
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;
   }
-  if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, params);
+  if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, after_gap, params);
   return object;
 }
 

@@ -105,17 +105,8 @@ TEST(SolveTask, TurnsAreTakenAsTheyAreGiven) {
 }
 
 TEST(SolveTask, AnArmReachesPastAPost) {
-  Robot robot{"arm", {}};
   PlanTask task = AcrossThePlace();
-  ArmSpace arm;
-  for (int i = 0; i < 4; ++i) {
-    robot.links.push_back({"link" + std::to_string(i),
-                           {{Box{{0.5, 0.08, 0.08}}, Pose::Translation(i == 0 ? 0 : 0.25, 0, 0)}}});
-    if (i == 0) continue;
-    arm.joints.push_back({Pose::Translation(i == 1 ? 0 : 0.5, 0, i == 1 ? 0.2 : 0),
-                          Eigen::Vector3d::UnitZ(), -2.5, 2.5, 1});
-  }
-  task.space = arm;
+  const Robot robot = PlaneArm(3, 0.5, 0.08, task);
   task.start = {-1, 0, 0};
   task.goal = {1, 0, 0};
   TestWorld world;

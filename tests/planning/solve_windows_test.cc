@@ -28,7 +28,8 @@ void GivenBut(Window window, TestWorld& world, ObjectId id, const Shape& shape, 
               {{TestTime(window.from_s), there},
                {TestTime(window.from_s + 0.1), away},
                {TestTime(window.until_s), away},
-               {TestTime(window.until_s + 0.1), there}});
+               {TestTime(window.until_s + 0.1), there},
+               {TestTime(1000), there}});
 }
 
 // Until it is away the disc is kept 0.55 m before the goal.
@@ -56,6 +57,33 @@ TEST(SolveWindows, AGoalThatIsFreeAfterTheLimitAloneIsTaken) {
   EXPECT_EQ(solved.outcome->status, PlanStatus::kGoalBlocked);
   EXPECT_EQ(solved.outcome->blocker.object, 1);
   EXPECT_TRUE(solved.plans.empty());
+}
+
+// Too short a moment to get there, and none: that is told at once.
+TEST(SolveWindows, AGoalThatIsFreeForAMomentIsNotTaken) {
+  for (const double from_s : {20.0, 51.3, 90.17}) {
+    TestWorld world;
+    GivenBut({from_s, from_s + 0.1}, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+    PlanTask task = AcrossThePlace();
+    task.time_limit = seconds(100);
+    for (const bool taken : {false, true}) {
+      if (taken) world.Given(2, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+      const Solved solved = SolveIn(world.Scene(), Disc(), task);
+      ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+      EXPECT_EQ(solved.outcome->status, taken ? PlanStatus::kGoalBlocked : PlanStatus::kNotFound);
+    }
+  }
+}
+
+// For a tenth of a second more than it takes to get there from where it is waited for.
+TEST(SolveWindows, TheGoalIsFreeForShortLate) {
+  for (const double from_s : {50.0, 71.3, 90.17}) {
+    TestWorld world;
+    GivenBut({from_s, from_s + 0.65}, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+    PlanTask task = AcrossThePlace();
+    task.time_limit = seconds(100);
+    ExpectArrivesBy(from_s + 0.7, world.Scene(), task);
+  }
 }
 
 TEST(SolveWindows, ATightLimitMayBeAtTheEndOfTime) {
@@ -102,20 +130,25 @@ TEST(SolveWindows, TheTimeIsTooShortForAWayRound) {
   EXPECT_EQ(solved.outcome->status, PlanStatus::kNoTimeToSpare);
 }
 
+// The elbow can be drawn in while the shoulder, which takes all of the time, goes at full speed.
+TEST(SolveWindows, NoTimeIsToSpareButNoneIsNeeded) {
+  PlanTask task = AcrossThePlace();
+  task.start = {-1.5, 0};
+  task.goal = {1.5, 0};
+  task.time_limit = seconds(3);
+  const Robot robot = PlaneArm(2, 0.5, 0.06, task);
+  TestWorld world;
+  world.Given(1, Cylinder{0.05, 1}, Pose::Translation(1, 0, 0));
+  const ScenePtr scene = world.Scene();
+  const Solved solved = SolveFor(kAnyTime_s, scene, robot, task);
+  ExpectGood(solved, scene, robot, task);
+}
+
 // An arm of six joints in a plane, which a post keeps from swinging over: the first ways that are
 // found take three times as long as the limit leaves.
 TEST(SolveWindows, ATightLimitIsMet) {
-  Robot robot{"arm", {}};
   PlanTask task = AcrossThePlace();
-  ArmSpace arm;
-  for (int i = 0; i <= 6; ++i) {
-    robot.links.push_back({"link" + std::to_string(i),
-                           {{Box{{0.3, 0.06, 0.06}}, Pose::Translation(i == 0 ? 0 : 0.15, 0, 0)}}});
-    if (i == 0) continue;
-    arm.joints.push_back({Pose::Translation(i == 1 ? 0 : 0.3, 0, i == 1 ? 0.2 : 0),
-                          Eigen::Vector3d::UnitZ(), -2.5, 2.5, 1});
-  }
-  task.space = arm;
+  const Robot robot = PlaneArm(6, 0.3, 0.06, task);
   task.start = {-1, 0, 0, 0, 0, 0};
   task.goal = {1, 0, 0, 0, 0, 0};
   task.time_limit = std::chrono::milliseconds(2800);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,22 @@ inline PlanTask AcrossThePlace() {
 }
 
 inline Robot Disc() { return Robot::SingleShape("disc", Cylinder{0.3, 1}); }
+
+// Links one after the other that turn about upright axes, 0.2 m above the ground, and the task's
+// space for them.
+inline Robot PlaneArm(int joints, double link_m, double thick_m, PlanTask& task) {
+  const Box link{{link_m, thick_m, thick_m}};
+  Robot robot{"arm", {{"base", {{link, {}}}}}};
+  ArmSpace arm;
+  for (int i = 1; i <= joints; ++i) {
+    robot.links.push_back(
+        {"link" + std::to_string(i), {{link, Pose::Translation(link_m / 2, 0, 0)}}});
+    arm.joints.push_back({Pose::Translation(i == 1 ? 0 : link_m, 0, i == 1 ? 0.2 : 0),
+                          Eigen::Vector3d::UnitZ(), -2.5, 2.5, 1});
+  }
+  task.space = arm;
+  return robot;
+}
 
 struct Solved {
   absl::StatusOr<PlanOutcome> outcome;

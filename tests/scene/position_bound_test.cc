@@ -188,6 +188,46 @@ TEST_F(BoundOfObject, IsThatOfAYoungTrackAfterAGap) {
   EXPECT_GT(After(Seen(91)).bound.At(1), 1.5 * known_m);
 }
 
+// The same by motions, of which one begins where the object was not seen.
+TEST_F(BoundOfObject, IsThatOfAYoungTrackAfterAMotionFromAPrediction) {
+  const auto moved = [](int from, int k) {
+    Frame frame = Seen(k);
+    frame.poses.clear();
+    frame.motions.push_back({5, Steady(0.1 * k) * Inverse(Steady(0.1 * from)), At(0.1 * from)});
+    return frame;
+  };
+  After(Seen(0));
+  for (int k = 1; k < 60; ++k) After(moved(k - 1, k));
+  const double known_m = scene_->FindObject(5)->bound.At(1);
+  After(moved(89, 90));
+  EXPECT_GT(After(moved(90, 91)).bound.At(1), 1.5 * known_m);
+}
+
+TEST_F(BoundOfObject, OfWhatRestsGoesOnWhileNoPoseComes) {
+  Frame frame = Seen(0);
+  for (int k = 0; k < 20; ++k) {
+    frame.stamp = At(0.1 * k);
+    After(frame);
+  }
+  const MovingObject before = *scene_->FindObject(5);
+  ASSERT_EQ(before.velocity_O, Twist{});
+  frame.poses.clear();
+  frame.stamp += std::chrono::seconds(2);
+  EXPECT_NEAR(After(frame).bound.At(1), before.bound.At(3), 1e-9);
+}
+
+// Up to the future's end nothing is uncertain, and behind it, it begins there.
+TEST_F(BoundOfObject, CountsFromTheFuturesEndWhenItIsBridged) {
+  for (int k = 0; k < 10; ++k) After(Seen(k));
+  ASSERT_TRUE(builder_.SetFuture(5, {{At(2), Pose::Translation(20, 0, 0)}}).ok());
+  const PositionBound before = scene_->FindObject(5)->bound;
+  Frame frame = Seen(15);
+  frame.poses.clear();
+  EXPECT_EQ(After(frame).bound, before);
+  frame.stamp = At(3);
+  EXPECT_NEAR(After(frame).bound.At(1), before.At(2), 1e-9);
+}
+
 TEST_F(BoundOfObject, StaysWhileNoMotionIsEverKnown) {
   Frame frame = Seen(0);
   frame.poses.clear();

@@ -26,10 +26,10 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 // about instead of sampling them: places are sampled alone. At each place the robot may wait as
 // long as that is free, its safe interval; from it every neighbouring place is left for as soon as
 // the way there, at full speed, is seen to be free (what is in the way is looked at every 0.3 s,
-// later after ever more: short gaps may be missed). (Phillips and Likhachev, "SIPP: Safe Interval
-// Path Planning for Dynamic Environments", 2011; on random places as Karaman and Frazzoli's PRM*,
-// "Sampling-based Algorithms for Optimal Motion Planning", 2011, in batches and with the most
-// promising edge first as Gammell et al.'s BIT*, 2015.)
+// later after ever more, at goals every 20 ms: shorter gaps may be missed). (Phillips and
+// Likhachev, "SIPP: Safe Interval Path Planning for Dynamic Environments", 2011; on random places
+// as Karaman and Frazzoli's PRM*, "Sampling-based Algorithms for Optimal Motion Planning", 2011, in
+// batches and with the most promising edge first as Gammell et al.'s BIT*, 2015.)
 //
 // A first path is looked for greedily; then earlier ones, with more and more places, of which only
 // those are kept that an earlier arrival can visit. A latest time that leaves little to spare makes
