@@ -1,4 +1,5 @@
 #include <map>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
@@ -12,7 +13,7 @@ namespace {
 struct Track {
   std::string type;
   std::size_t frames = 0;
-  std::uint64_t points = 0;
+  std::optional<std::uint64_t> points;               // if the source says how many
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // mean
   double path_m = 0;                                 // of the box's centre
   Eigen::Vector3d last_W = Eigen::Vector3d::Zero();
@@ -26,7 +27,7 @@ std::map<ObjectId, Track> TracksOf(const std::vector<RecordedBox>& boxes) {
     track.type = box.type;
     track.last_W = box.T_W_B.translation;
     ++track.frames;
-    track.points += static_cast<std::uint64_t>(std::max(box.n_points, 0));
+    if (box.n_points >= 0) track.points = track.points.value_or(0) + box.n_points;
     track.size_m += (box.size_m - track.size_m) / static_cast<double>(track.frames);
   }
   return tracks;
@@ -59,8 +60,9 @@ double SensorPath(const std::vector<RecordedPose>& poses) {
 std::string TableOf(const std::map<ObjectId, Track>& tracks) {
   Table table({"id", "type", "frames", "points", "size", "path m"});
   for (const auto& [id, track] : tracks) {
-    table.AddRow({absl::StrCat(id), track.type, Grouped(track.frames), Grouped(track.points),
-                  Size(track.size_m), Fixed(track.path_m, 1)});
+    table.AddRow({absl::StrCat(id), track.type, Grouped(track.frames),
+                  track.points ? Grouped(*track.points) : "-", Size(track.size_m),
+                  Fixed(track.path_m, 1)});
   }
   return table.ToString();
 }
@@ -71,7 +73,7 @@ Json JsonOf(const std::map<ObjectId, Track>& tracks) {
     objects.push_back({{"id", id},
                        {"type", track.type},
                        {"frames", track.frames},
-                       {"points", track.points},
+                       {"points", track.points ? Json(*track.points) : Json()},
                        {"size_m", ToJson(track.size_m)},
                        {"path_m", track.path_m}});
   }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
 #include "clearway/sim/scenarios.h"
 #include "cli/cli.h"
@@ -119,7 +120,7 @@ absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlag
   options.poses = LidarPosesOf(flags.poses);
   options.objects = LidarObjectsOf(flags.objects);
   options.allow_missing_points = allow_missing_points;
-  return OpenLidarFolder(path, options);
+  return IsKittiTracking(path) ? OpenKittiTracking(path, options) : OpenLidarFolder(path, options);
 }
 
 absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlags& flags) {

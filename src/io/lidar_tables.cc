@@ -7,14 +7,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/csv.h"
+#include "io/rigid_matrix.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // KITTI's rate, 10 Hz
 constexpr std::int64_t kMaxFrame = 99'999'999;
-// The tables round to six digits; beyond this a matrix is no rotation.
-constexpr double kRotationTolerance = 1e-3;
 
 using PoseColumns = std::array<std::size_t, 12>;
 
@@ -46,14 +45,7 @@ absl::StatusOr<Pose> ReadPose(const CsvTable& table, std::size_t row, const Pose
   Eigen::Matrix<double, 3, 4> matrix;
   for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = reader.Number(columns[i]);
   if (!reader.status().ok()) return reader.status();
-  const Eigen::Matrix3d R = matrix.leftCols<3>();
-  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= kRotationTolerance) || R.determinant() < 0) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        table.Where(row), ", columns T00 to T22: not a rotation (its columns are off unit length ",
-        "and right angles by ", error, "; the limit is ", kRotationTolerance, ")"));
-  }
-  return Pose::FromMatrix(matrix);
+  return PoseOfMatrix(matrix, absl::StrCat(table.Where(row), ", columns T00 to T22"));
 }
 
 // Where the columns of a table of boxes are.
@@ -138,6 +130,19 @@ absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::
   return poses;
 }
 
+absl::Status SortBoxes(const std::filesystem::path& path, std::vector<RecordedBox>& boxes) {
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const auto& a, const auto& b) { return KeyOf(a) < KeyOf(b); });
+  const auto twice =
+      std::adjacent_find(boxes.begin(), boxes.end(),
+                         [](const auto& a, const auto& b) { return KeyOf(a) == KeyOf(b); });
+  if (twice != boxes.end()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", twice->frame,
+                                                   " has two boxes of track ", twice->id));
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::path& path,
                                                         const std::vector<RecordedPose>& poses) {
   const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
@@ -155,15 +160,7 @@ absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::p
     }
     boxes.push_back(*std::move(box));
   }
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const auto& a, const auto& b) { return KeyOf(a) < KeyOf(b); });
-  const auto twice =
-      std::adjacent_find(boxes.begin(), boxes.end(),
-                         [](const auto& a, const auto& b) { return KeyOf(a) == KeyOf(b); });
-  if (twice != boxes.end()) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", twice->frame,
-                                                   " has two boxes of track ", twice->id));
-  }
+  if (auto status = SortBoxes(path, boxes); !status.ok()) return status;
   return boxes;
 }
 

@@ -17,4 +17,7 @@ absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::
 absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::path& path,
                                                         const std::vector<RecordedPose>& poses);
 
+// By (frame, id). INVALID_ARGUMENT, naming the file, if a frame has two boxes of one track.
+absl::Status SortBoxes(const std::filesystem::path& path, std::vector<RecordedBox>& boxes);
+
 }  // namespace clearway

@@ -48,7 +48,7 @@ struct RecordedBox {
   std::string type;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height
   Pose T_W_B;
-  int n_points = 0;
+  int n_points = 0;  // below 0 if the source does not say
 };
 
 // An opened folder. A value.

@@ -1,0 +1,158 @@
+#include "clearway/io/kitti_tracking.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "io/file.h"
+#include "io/kitti_tables.h"
+#include "io/lidar_frames.h"
+#include "io/lidar_tables.h"
+
+namespace clearway {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "points are stored little endian");
+
+using Path = std::filesystem::path;
+
+constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // 10 Hz
+constexpr std::size_t kRecordBytes = 16;                    // float32 x, y, z, reflectance
+constexpr std::uint64_t kMaxPointBytes = kRecordBytes * 20'000'000;
+// Images of the drives differ in size by a few pixels; the smallest one is in all of them.
+constexpr double kImageWidth = 1224, kImageHeight = 370;
+
+// Without a slash at its end.
+Path Plain(const Path& scans) { return scans.has_filename() ? scans : scans.parent_path(); }
+
+bool Holds(const ImageRegion& region, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= region.left && pixel.x() <= region.right && pixel.y() >= region.top &&
+         pixel.y() <= region.bottom;
+}
+
+// Tells of points whose they are.
+class Labeller {
+ public:
+  Labeller(const KittiCalibration& calibration, std::multimap<int, ImageRegion> unlabelled)
+      : calibration_(calibration), unlabelled_(std::move(unlabelled)) {}
+
+  void Label(int frame_number, std::span<const RecordedBox> boxes, Frame& frame) const {
+    const Pose T_S_W = Inverse(frame.T_W_S);
+    std::vector<Pose> T_B_S;
+    for (const RecordedBox& box : boxes) T_B_S.push_back(Inverse(T_S_W * box.T_W_B));
+    const auto [first, last] = unlabelled_.equal_range(frame_number);
+    frame.labels.clear();
+    for (const Eigen::Vector3f& point : frame.points_S) {
+      const Eigen::Vector3d p_S = point.cast<double>();
+      ObjectId label = InView(p_S, first, last) ? kStaticLabel : kIgnoreLabel;
+      for (std::size_t b = 0; b < boxes.size(); ++b) {
+        const Eigen::Array3d p_B = (T_B_S[b] * p_S).array().abs();
+        if ((p_B <= boxes[b].size_m.array() / 2).all()) label = boxes[b].id;
+      }
+      frame.labels.push_back(label);
+    }
+  }
+
+ private:
+  using Region = std::multimap<int, ImageRegion>::const_iterator;
+
+  // Where what moves would be labelled.
+  bool InView(const Eigen::Vector3d& p_S, Region first, Region last) const {
+    const Eigen::Vector3d p = calibration_.image_from_C * (calibration_.T_C_S * p_S).homogeneous();
+    if (p.z() <= 0) return false;
+    const Eigen::Vector2d pixel = p.head<2>() / p.z();
+    return Holds({0, 0, kImageWidth, kImageHeight}, pixel) &&
+           std::none_of(first, last,
+                        [&](const auto& region) { return Holds(region.second, pixel); });
+  }
+
+  KittiCalibration calibration_;
+  std::multimap<int, ImageRegion> unlabelled_;
+};
+
+absl::Status ReadPoints(const Path& path, Frame& frame) {
+  const absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxPointBytes);
+  if (!bytes.ok()) return bytes.status();
+  if (bytes->size() % kRecordBytes != 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path.string(), ": ", bytes->size(), " bytes are not a whole number of ",
+                     kRecordBytes, "-byte points; the file seems cut off"));
+  }
+  frame.points_S.resize(bytes->size() / kRecordBytes);
+  for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
+    std::memcpy(frame.points_S[i].data(), bytes->data() + i * kRecordBytes, 12);
+  }
+  return absl::OkStatus();
+}
+
+std::vector<RecordedPose> SensorPoses(const std::vector<Pose>& T_W_I, const Pose& T_S_I) {
+  std::vector<RecordedPose> poses;
+  for (std::size_t k = 0; k < T_W_I.size(); ++k) {
+    poses.push_back({static_cast<int>(k),
+                     TimeFromNanoseconds(static_cast<std::int64_t>(k) * kNanosecondsPerFrame),
+                     T_W_I[k] * Inverse(T_S_I)});
+  }
+  return poses;
+}
+
+absl::StatusOr<std::vector<RecordedBox>> BoxesInWorld(const std::vector<KittiBox>& boxes,
+                                                      const std::vector<RecordedPose>& poses,
+                                                      const Pose& T_C_S, const Path& path) {
+  std::vector<RecordedBox> result;
+  for (const KittiBox& box : boxes) {
+    if (static_cast<std::size_t>(box.frame) >= poses.size()) {
+      return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", box.frame,
+                                                     "; oxts tells of ", poses.size(), " frames"));
+    }
+    const Pose T_W_C = poses[box.frame].T_W_S * Inverse(T_C_S);
+    constexpr int kNotSaid = -1;
+    result.push_back({box.frame, box.track + 1, box.type, box.size_m, T_W_C * box.T_C_B, kNotSaid});
+  }
+  if (auto status = SortBoxes(path, result); !status.ok()) return status;
+  return result;
+}
+
+}  // namespace
+
+bool IsKittiTracking(const Path& scans) {
+  return Plain(scans).parent_path().filename() == "velodyne";
+}
+
+absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
+                                              const LidarFolderOptions& options) {
+  const Path folder = Plain(scans), root = folder.parent_path().parent_path();
+  const std::string table = folder.filename().string() + ".txt";
+  if (options.poses != LidarPoses::kAny && options.poses != LidarPoses::kOxts) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(folder.string(), ": KITTI's tracking sequences have oxts poses alone"));
+  }
+  const auto calibration = ReadKittiCalibration(root / "calib" / table);
+  if (!calibration.ok()) return calibration.status();
+  const auto T_W_I = ReadKittiOxts(root / "oxts" / table);
+  if (!T_W_I.ok()) return T_W_I.status();
+  const Path labels_path = root / "label_02" / table;
+  auto labels = ReadKittiLabels(labels_path);
+  if (!labels.ok()) return labels.status();
+  LidarScans result;
+  result.name = absl::StrCat("KITTI tracking sequence ", folder.string());
+  result.options = options;
+  result.poses = SensorPoses(*T_W_I, calibration->T_S_I);
+  auto boxes = BoxesInWorld(labels->boxes, result.poses, calibration->T_C_S, labels_path);
+  if (!boxes.ok()) return boxes.status();
+  result.boxes = *std::move(boxes);
+  result.points_of = [folder](int frame) { return folder / absl::StrFormat("%06d.bin", frame); };
+  const auto labeller =
+      std::make_shared<const Labeller>(*calibration, std::move(labels->unlabelled));
+  result.read = [labeller](const Path& points, std::span<const RecordedBox> in, Frame& frame) {
+    const absl::Status status = ReadPoints(points, frame);
+    if (status.ok()) labeller->Label(static_cast<int>(frame.sequence), in, frame);
+    return status;
+  };
+  return FramesOf(std::move(result));
+}
+
+}  // namespace clearway

@@ -1,0 +1,124 @@
+#include "io/lidar_frames.h"
+
+#include <algorithm>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+using Path = std::filesystem::path;
+
+// Shared by the copies of a FrameSource.
+struct OpenScans {
+  LidarScans scans;
+  std::vector<RecordedPose> poses;  // of the range
+  std::vector<RecordedBox> boxes;   // of the range, ascending (frame, id)
+};
+
+std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
+  const auto [first, last] = std::ranges::equal_range(open.boxes, frame, {}, &RecordedBox::frame);
+  return {first, last};
+}
+
+const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) {
+  const auto boxes = BoxesOf(open, open.poses[index].frame);
+  const auto box = std::ranges::lower_bound(boxes, id, {}, &RecordedBox::id);
+  return box != boxes.end() && box->id == id ? &*box : nullptr;
+}
+
+// Eq. (2) for every object with a box at the frame and at one that is the motion's begin.
+void AddMotions(const OpenScans& open, std::size_t index, Frame& frame) {
+  if (index == 0) return;
+  const Time earliest = open.poses[index].stamp - open.scans.options.motions_over;
+  std::size_t first = index - 1;
+  while (first > 0 && open.poses[first - 1].stamp >= earliest) --first;
+  for (const RecordedBox& box : BoxesOf(open, open.poses[index].frame)) {
+    for (std::size_t from = first; from < index; ++from) {
+      const RecordedBox* const then = BoxOf(open, from, box.id);
+      if (then == nullptr) continue;
+      frame.motions.push_back({box.id, box.T_W_B * Inverse(then->T_W_B), open.poses[from].stamp});
+      break;
+    }
+  }
+}
+
+absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
+  const LidarFolderOptions& options = open.scans.options;
+  if (index >= open.poses.size()) {
+    return absl::OutOfRangeError(absl::StrCat("frame index ", index, "; ", open.scans.name, " has ",
+                                              open.poses.size(), " frames"));
+  }
+  const RecordedPose& pose = open.poses[index];
+  const std::span<const RecordedBox> boxes = BoxesOf(open, pose.frame);
+  Frame frame;
+  frame.sensor_id = options.sensor_id;
+  frame.sequence = static_cast<std::uint64_t>(pose.frame);
+  frame.stamp = pose.stamp;
+  frame.T_W_S = pose.T_W_S;
+  const Path path = open.scans.points_of(pose.frame);
+  std::error_code error;
+  if (!options.allow_missing_points || std::filesystem::exists(path, error)) {
+    const absl::Status status = open.scans.read(path, boxes, frame);
+    if (!status.ok()) return status;
+  }
+  if (options.objects == LidarObjects::kMotions) AddMotions(open, index, frame);
+  if (options.objects == LidarObjects::kPoses) {
+    for (const RecordedBox& box : boxes) frame.poses.push_back({box.id, box.T_W_B});
+  }
+  return frame;
+}
+
+absl::Status CheckPointFiles(const OpenScans& open) {
+  std::size_t missing = 0;
+  Path first;
+  for (const RecordedPose& pose : open.poses) {
+    const Path path = open.scans.points_of(pose.frame);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) continue;
+    if (missing++ == 0) first = path;
+  }
+  if (missing == 0) return absl::OkStatus();
+  return absl::NotFoundError(absl::StrCat(first.string(), ": no such file; ", missing, " of ",
+                                          open.poses.size(),
+                                          " frames have a pose but no file of points"));
+}
+
+template <class Row>
+std::vector<Row> InRange(const std::vector<Row>& rows, const LidarFolderOptions& options) {
+  std::vector<Row> result;
+  for (const Row& row : rows) {
+    if (row.frame >= options.first_frame && row.frame <= options.last_frame) result.push_back(row);
+  }
+  return result;
+}
+
+}  // namespace
+
+absl::StatusOr<LidarFolder> FramesOf(LidarScans scans) {
+  const LidarFolderOptions options = scans.options;
+  LidarFolder result;
+  result.poses = scans.poses;
+  result.boxes = scans.boxes;
+  const auto open = std::make_shared<OpenScans>();
+  open->poses = InRange(scans.poses, options);
+  open->boxes = InRange(scans.boxes, options);
+  open->scans = std::move(scans);
+  if (open->poses.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        open->scans.name, ": no frame from ", options.first_frame, " to ", options.last_frame,
+        "; the tables hold ", result.poses.front().frame, " to ", result.poses.back().frame));
+  }
+  if (!options.allow_missing_points) {
+    const absl::Status status = CheckPointFiles(*open);
+    if (!status.ok()) return status;
+  }
+  result.frames = {open->scans.name, open->poses.size(), 0.1,
+                   [open](std::size_t index) { return ReadFrame(*open, index); }};
+  return result;
+}
+
+}  // namespace clearway

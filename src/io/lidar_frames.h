@@ -1,0 +1,33 @@
+// What folders of LiDAR scans have in common, whatever the format of their files.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/io/lidar_folder.h"
+
+namespace clearway {
+
+// The tables of a folder, and how its points are read. A value.
+struct LidarScans {
+  std::string name;  // for messages
+  LidarFolderOptions options;
+  std::vector<RecordedPose> poses;  // ascending frames, not empty
+  std::vector<RecordedBox> boxes;   // ascending (frame, id)
+  // The file of a frame's points.
+  std::function<std::filesystem::path(int frame)> points_of;
+  // Sets points and labels of a frame whose boxes these are. Any thread.
+  std::function<absl::Status(const std::filesystem::path& points,
+                             std::span<const RecordedBox> boxes, Frame& frame)>
+      read;
+};
+
+// The frames of the options' range. INVALID_ARGUMENT if there are none, NOT_FOUND if points are
+// missing and may not.
+absl::StatusOr<LidarFolder> FramesOf(LidarScans scans);
+
+}  // namespace clearway

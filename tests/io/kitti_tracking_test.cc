@@ -1,0 +1,163 @@
+#include "clearway/io/kitti_tracking.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_replace.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr char kCalibration[] =
+    "P0: 700 0 600 0 0 700 180 0 0 0 1 0\n"
+    "P2: 700 0 600 0 0 700 180 0 0 0 1 0\n"
+    "R_rect 1 0 0 0 1 0 0 0 1\n"
+    "Tr_velo_cam 0 -1 0 0 0 0 -1 -0.08 1 0 0 -0.27\n"
+    "Tr_imu_velo 1 0 0 -0.81 0 1 0 0.32 0 0 1 -0.8\n";
+// A van whose middle is at (10, 2, -1) of the velodyne, where it looks, in both frames.
+constexpr char kLabels[] =
+    "0 0 Van 0 0 -1.57 400 150 500 250 2 2 4 -2 1.92 9.73 -1.5707963267949\n"
+    "0 -1 DontCare -1 -1 -10 830 200 850 240 -1000 -1000 -1000 -10 -1 -1 -1\n"
+    "1 0 Van 0 0 -1.57 400 150 500 250 2 2 4 -2 1.92 9.73 -1.5707963267949\n"
+    "1 7 Cyclist 0 0 -1.57 400 150 500 250 2 1 2 0 1.92 19.73 0\n";
+constexpr double kLatitude_deg = 49, kRadius_m = 6378137;
+const Eigen::Vector3d kSensorInImu(0.81, -0.32, 0.8);
+
+std::string Oxts(double east_m, double yaw_rad) {
+  const double radius_m = kRadius_m * std::cos(kLatitude_deg * std::numbers::pi / 180);
+  std::string line = absl::StrFormat("%.17g %.17g 112.8 0 0 %.17g", kLatitude_deg,
+                                     8.4 + east_m / radius_m * 180 / std::numbers::pi, yaw_rad);
+  for (int i = 6; i < 30; ++i) line += " 0";
+  return line + "\n";
+}
+
+std::string PointBytes(const std::vector<Eigen::Vector4f>& points) {
+  std::string bytes;
+  for (const Eigen::Vector4f& point : points) {
+    bytes.append(reinterpret_cast<const char*>(point.data()), 16);
+  }
+  return bytes;
+}
+
+// Two frames; in between the car goes 1 m east and turns left by a quarter.
+class KittiTracking : public testing::Test {
+ protected:
+  KittiTracking() {
+    folder_.Write("calib/0003.txt", kCalibration);
+    folder_.Write("label_02/0003.txt", kLabels);
+    folder_.Write("oxts/0003.txt", Oxts(0, 0) + Oxts(1, std::numbers::pi / 2));
+    folder_.Write("velodyne/0003/000000.bin",
+                  PointBytes({{10, 2, -1, 0.5}, {20, 0, -1, 0}, {-5, 0, 0, 0}, {15, -5, -1, 0}}));
+    folder_.Write("velodyne/0003/000001.bin",
+                  PointBytes({{11.9F, 1.1F, -1.9F, 0}, {12.1F, 2, -1, 0}}));
+  }
+  absl::StatusOr<LidarFolder> Open(const LidarFolderOptions& options = {}) {
+    return OpenKittiTracking(folder_ / "velodyne/0003", options);
+  }
+  // Of a sequence with that in one of its files.
+  std::string ErrorWith(const std::string& file, const std::string& bytes) {
+    folder_.Write(file, bytes);
+    auto opened = Open();
+    if (opened.ok()) opened = absl::StatusOr<LidarFolder>(opened->frames.read(0).status());
+    return std::string(opened.status().message());
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(KittiTracking, IsToldByItsFolder) {
+  EXPECT_TRUE(IsKittiTracking("/data/training/velodyne/0003"));
+  EXPECT_TRUE(IsKittiTracking("/data/training/velodyne/0003/"));
+  EXPECT_FALSE(IsKittiTracking("/data/velodyne"));
+}
+
+TEST_F(KittiTracking, PosesAreEastNorthUp) {
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->poses.size(), 2u);
+  EXPECT_TRUE(dut->poses[0].T_W_S.translation.isApprox(kSensorInImu, 1e-9));
+  EXPECT_EQ(dut->poses[1].stamp, TimeFromNanoseconds(100'000'000));
+  const Pose& T_W_S = dut->poses[1].T_W_S;
+  EXPECT_TRUE((T_W_S * Eigen::Vector3d(2, 0, 0)).isApprox(Eigen::Vector3d(1.32, 2.81, 0.8), 1e-6));
+}
+
+TEST_F(KittiTracking, BoxesStandInTheWorld) {
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->boxes.size(), 3u);
+  const RecordedBox& van = dut->boxes[0];
+  EXPECT_EQ(van.id, 1);  // track 0
+  EXPECT_EQ(van.type, "Van");
+  EXPECT_EQ(van.size_m, Eigen::Vector3d(4, 2, 2));
+  EXPECT_TRUE(van.T_W_B.translation.isApprox(kSensorInImu + Eigen::Vector3d(10, 2, -1), 1e-9));
+  EXPECT_TRUE(van.T_W_B.rotation.toRotationMatrix().isIdentity(1e-9));
+  // Not turned, a box looks to the camera's right: here that is east again.
+  EXPECT_EQ(dut->boxes[2].id, 8);
+  EXPECT_TRUE((dut->boxes[2].T_W_B.rotation * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitX(), 1e-6));
+}
+
+TEST_F(KittiTracking, PointsAreTheirBoxesOrLeftOutWhereNothingIsLabelled) {
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  const auto first = dut->frames.read(0);
+  ASSERT_TRUE(first.ok()) << first.status();
+  // In the van, ahead, behind the camera, and in a region that is not labelled.
+  EXPECT_EQ(first->labels, (std::vector<ObjectId>{1, 0, kIgnoreLabel, kIgnoreLabel}));
+  EXPECT_EQ(first->points_S[1], Eigen::Vector3f(20, 0, -1));
+  EXPECT_TRUE(Validate(*first, {}).ok());
+  const auto second = dut->frames.read(1);
+  ASSERT_TRUE(second.ok()) << second.status();
+  EXPECT_EQ(second->labels, (std::vector<ObjectId>{1, 0}));  // just in it and just not
+  ASSERT_EQ(second->motions.size(), 1u);
+  const Eigen::Vector3d p_S(10, 2, -1);
+  EXPECT_TRUE((second->motions[0].H_W * (dut->poses[0].T_W_S * p_S))
+                  .isApprox(dut->poses[1].T_W_S * p_S, 1e-9));
+}
+
+TEST_F(KittiTracking, ASequenceMayLackScans) {
+  std::filesystem::remove(folder_ / "velodyne/0003/000001.bin");
+  EXPECT_THAT(std::string(Open().status().message()), HasSubstr("000001.bin"));
+  const auto dut = Open({.allow_missing_points = true});
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 2u);
+  EXPECT_TRUE(dut->frames.read(1)->points_S.empty());
+}
+
+TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
+  EXPECT_THAT(ErrorWith("velodyne/0003/000000.bin", "123"), HasSubstr("3 bytes"));
+  EXPECT_THAT(ErrorWith("calib/0003.txt", "P2: 1 2 3\n"), HasSubstr("line 1: 4 words"));
+  EXPECT_THAT(ErrorWith("calib/0003.txt", "P1: 1\n"), HasSubstr("no P2"));
+  EXPECT_THAT(ErrorWith("calib/0003.txt",
+                        absl::StrReplaceAll(kCalibration, {{"cam 0 -1 0 0", "cam 0 -2 0 0"}})),
+              HasSubstr("Tr_velo_cam: not a rotation"));
+  folder_.Write("calib/0003.txt", kCalibration);
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", ""), HasSubstr("no frame"));
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", "91 8 100 0 0 0\n"), HasSubstr("word 1: '91'"));
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", "49 8 nan 0 0 0\n"), HasSubstr("word 3: 'nan'"));
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", Oxts(0, 0)), HasSubstr("frame 1; oxts tells of 1"));
+  folder_.Write("oxts/0003.txt", Oxts(0, 0) + Oxts(1, 0));
+  const std::string labels = kLabels;
+  EXPECT_THAT(ErrorWith("label_02/0003.txt", labels + "1 0\n"), HasSubstr("line 5: 2 words"));
+  EXPECT_THAT(ErrorWith("label_02/0003.txt", labels + kLabels), HasSubstr("two boxes of track 1"));
+  EXPECT_THAT(ErrorWith("label_02/0003.txt", labels.substr(0, 100)), HasSubstr("cut off"));
+  EXPECT_THAT(ErrorWith("label_02/0003.txt", absl::StrReplaceAll(labels, {{"2 2 4", "2 0 4"}})),
+              HasSubstr("word 12: '0', expected a length above 0"));
+  EXPECT_THAT(ErrorWith("label_02/0003.txt", absl::StrReplaceAll(labels, {{"1 7 ", "1 -7 "}})),
+              HasSubstr("word 2: '-7'"));
+  const auto icp = Open({.poses = LidarPoses::kIcp});
+  EXPECT_EQ(icp.status().code(), absl::StatusCode::kInvalidArgument);
+  std::filesystem::remove(folder_ / "label_02/0003.txt");
+  EXPECT_EQ(Open().status().code(), absl::StatusCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace clearway
