@@ -172,11 +172,11 @@ void AnytimeSearch::JoinAlongPath() {
 }
 
 bool AnytimeSearch::GoalsAreTaken(const ob::PlannerTerminationCondition& until) {
-  return std::ranges::all_of(goals_, [&](std::size_t goal) {
-    const ob::State* const part = roadmap_.Place(goal);
-    const double free_s = checks_.FreeFromClosely(part, ArrivalBy(part), latest_s_, until);
-    return std::isinf(free_s);
-  });
+  const std::function<bool()> cancelled = [&] { return until(); };
+  return timed_goals_.empty() && std::ranges::all_of(goals_, [&](std::size_t goal) {
+           const double reached_s = ArrivalBy(roadmap_.Place(goal));
+           return search_.FreeFrom(goal, reached_s, &cancelled) > latest_s_;
+         });
 }
 
 std::shared_ptr<og::PathGeometric> AnytimeSearch::Path() const {

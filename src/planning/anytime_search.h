@@ -53,7 +53,8 @@ class AnytimeSearch {
   bool led() const { return !path_.empty(); }
   double Arrival() const { return found() ? BestArrival() : kNever_s; }
   std::shared_ptr<ompl::geometric::PathGeometric> Path() const;
-  // Whether no goal is free, whenever it is looked at from when it can be reached on, every 20 ms.
+  // Whether no goal is free, whenever it is looked at from when it can be reached on. False if that
+  // is not known by then, or of some goals times are given, when they are.
   bool GoalsAreTaken(const ompl::base::PlannerTerminationCondition& until);
 
   std::size_t places() const { return roadmap_.size(); }

@@ -16,8 +16,7 @@ std::vector<Stay> IntervalSearch::Find(const Question& question) {
   stays_.clear();
   open_.clear();
   stays_at_.assign(roadmap_.size(), {});
-  held_.resize(roadmap_.size());
-  taken_.resize(roadmap_.size());
+  KnowPlaces();
   left_s_.assign(roadmap_.size(), std::nullopt);
   for (const auto& [place, seconds] : question.starts) AddStay(place, seconds, -1, seconds);
   const std::size_t before = checks_.ways_asked();
@@ -85,16 +84,27 @@ double IntervalSearch::LeaveBy(std::size_t place, double arrival_s) {
   return until_s;
 }
 
-double IntervalSearch::FreeFrom(std::size_t place, double arrival_s) {
+void IntervalSearch::KnowPlaces() {
+  held_.resize(roadmap_.size());
+  taken_.resize(roadmap_.size());
+}
+
+double IntervalSearch::FreeFrom(std::size_t place, double arrival_s,
+                                const std::function<bool()>* cancelled) {
+  KnowPlaces();
   if (KnownUntil(place, arrival_s)) return arrival_s;
-  for (const auto& [from_s, until_s] : taken_[place]) {
-    if (from_s <= arrival_s && arrival_s < until_s) return until_s;
+  double from_s = arrival_s;
+  for (const auto& [taken_s, until_s] : taken_[place]) {
+    if (taken_s <= from_s && from_s < until_s) from_s = until_s;
   }
-  const bool goal = std::ranges::find(question_->goals, place) != question_->goals.end();
-  const double free_s = goal ? checks_.FreeFromClosely(roadmap_.Place(place), arrival_s,
-                                                       space_.latest_s(), question_->cancelled)
-                             : checks_.FreeFrom(roadmap_.Place(place), arrival_s);
-  if (free_s > arrival_s) taken_[place].emplace_back(arrival_s, free_s);
+  const bool known = from_s > arrival_s;
+  if (std::isinf(from_s) || (known && cancelled == nullptr)) return from_s;
+  // A search that was cancelled goes on where it had come to.
+  const ompl::base::State* const part = roadmap_.Place(place);
+  const double free_s = cancelled == nullptr
+                            ? checks_.FreeFrom(part, from_s)
+                            : checks_.FreeFromClosely(part, from_s, space_.latest_s(), *cancelled);
+  if (free_s > from_s) taken_[place].emplace_back(from_s, free_s);
   return free_s;
 }
 
@@ -139,7 +149,9 @@ bool IntervalSearch::Follow(const Candidate& candidate) {
     Propose(stay, to, *held_until_s - to.seconds + kSoon_s);
     return false;
   }
-  if (const double free_s = FreeFrom(to.place, arrival_s); free_s > arrival_s) {
+  const bool goal = std::ranges::find(question_->goals, to.place) != question_->goals.end();
+  const double free_s = FreeFrom(to.place, arrival_s, goal ? &question_->cancelled : nullptr);
+  if (free_s > arrival_s) {
     Propose(stay, to, free_s - to.seconds + kSoon_s);
     return false;
   }

@@ -43,6 +43,9 @@ class IntervalSearch {
   };
   // The stays of a path, in their order; empty if none was found.
   std::vector<Stay> Find(const Question& question);
+  // Not before then it is worth trying to be at the place. `cancelled`, not null, if it is a goal,
+  // which is looked at closely.
+  double FreeFrom(std::size_t place, double arrival_s, const std::function<bool()>* cancelled);
   // All of the last search.
   const std::vector<Stay>& stays() const { return stays_; }
 
@@ -66,8 +69,7 @@ class IntervalSearch {
   // Until when it can be held from then on, as far as that was asked.
   std::optional<double> KnownUntil(std::size_t place, double arrival_s) const;
   double LeaveBy(std::size_t place, double arrival_s);
-  // Not before then it is worth trying to be at the place.
-  double FreeFrom(std::size_t place, double arrival_s);
+  void KnowPlaces();  // all of the roadmap
   // At full speed from the place to the nearest goal.
   double LeftSeconds(std::size_t place);
   const WayAnswer& Ask(std::size_t from, std::size_t to, double depart_s, double arrival_s);

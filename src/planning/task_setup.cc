@@ -3,6 +3,7 @@
 #include <ompl/base/ScopedState.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -37,8 +38,8 @@ absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
   const double latest_s = LatestSeconds(task.time_limit, arrival_s);
   if (arrival_s > latest_s) {
     return absl::InvalidArgumentError(
-        absl::StrFormat("time_limit_s is %.9g; at full speed the goal is reached after %.9g s",
-                        ToSeconds(task.time_limit), arrival_s));
+        absl::StrFormat("time_limit_s is %.13g; at full speed the goal is reached after %.13g s",
+                        ToSeconds(task.time_limit), std::ceil(1e9 * arrival_s) / 1e9));
   }
   const double ever_s = ToSeconds(TimeFromNanoseconds(kFarthest_ns) - task.start_time);
   const double space_s = std::min(ever_s, LeadingSeconds(latest_s, arrival_s));

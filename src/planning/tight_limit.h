@@ -10,9 +10,8 @@ namespace clearway {
 // The limit in seconds, where the earliest arrival is then: times are whole nanoseconds, and what
 // rounds to the limit is in time.
 inline double LatestSeconds(Duration limit, double earliest_s) {
-  constexpr double kRounding_s = 0.4e-9;
   const double limit_s = ToSeconds(limit);
-  return earliest_s <= limit_s + kRounding_s ? std::max(limit_s, earliest_s) : limit_s;
+  return FromSeconds(earliest_s) <= limit ? std::max(limit_s, earliest_s) : limit_s;
 }
 
 // How long paths may take that are looked for where they may take `allowed_s`, and the straight way

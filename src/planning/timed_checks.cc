@@ -17,9 +17,9 @@ constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
 // Later it is looked again after this part of what it has been there for. At places more often than
 // on ways: of a place the answer is kept, of ways others are asked about, at other times.
 constexpr double kOfWhatPassedAtPlaces = 1.0 / 64, kOfWhatPassedOnWays = 1.0 / 8;
-// The same where no gap is to be missed, and at how many times at once.
-constexpr double kLookClosely_s = 0.02;
-constexpr std::size_t kFirstLooks = 16, kMostLooks = 1024;
+// The same where hardly a gap is to be missed, for how long, and at how many times at once.
+constexpr double kLookClosely_s = 0.02, kClosely_s = 3600;
+constexpr std::size_t kMostLooks = 1024;
 // Without proofs: how finely the end of a wait is looked for.
 constexpr double kWaitWithin_s = 0.02;
 
@@ -77,20 +77,23 @@ double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
 double TimedChecks::FreeFromClosely(const ob::State* part, double at_s, double until_s,
                                     const std::function<bool()>& cancelled) {
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
+  const double closely_until_s = std::min(until_s, at_s + kClosely_s);
   std::vector<double> looks_s;
-  std::size_t most = kFirstLooks;
+  std::size_t most = 1;
   for (bool more = true; more; most = std::min(2 * most, kMostLooks)) {
+    if (query_ == nullptr) most = 1;  // many at once take no less
     for (looks_s.clear(); more && looks_s.size() < most;) {
       looks_s.push_back(at_s);
-      more = at_s < until_s;
-      at_s = std::min(at_s + kLookClosely_s, until_s);
+      more = at_s < closely_until_s;
+      at_s = std::min(at_s + kLookClosely_s, closely_until_s);
     }
     const Looks looks = LookAt(looks_s);
     if (looks.free) return looks_s[*looks.free];
-    if (cancelled()) return looks_s.front();
-    if (looks.forever) break;
+    if (looks.unsure) return looks_s.front();
+    if (looks.forever) return std::numeric_limits<double>::infinity();
+    if (cancelled()) return looks_s.back();
   }
-  return std::numeric_limits<double>::infinity();
+  return FreeAgain(closely_until_s, until_s, kOfWhatPassedAtPlaces);
 }
 
 TimedChecks::Looks TimedChecks::LookAt(const std::vector<double>& seconds) {
@@ -101,8 +104,12 @@ TimedChecks::Looks TimedChecks::LookAt(const std::vector<double>& seconds) {
     return looks;
   }
   const std::vector<StateAnswer> answers = query_->CheckPlace(first_, seconds);
-  const auto free = std::ranges::find(answers, SpaceStatus::kFree, &StateAnswer::status);
+  const auto find = [&](SpaceStatus status) {
+    return std::ranges::find(answers, status, &StateAnswer::status);
+  };
+  const auto free = find(SpaceStatus::kFree);
   if (free != answers.end()) looks.free = free - answers.begin();
+  looks.unsure = find(SpaceStatus::kUnresolved) != answers.end();
   looks.forever = answers[0].status == SpaceStatus::kOccupied && answers[0].object == kStaticLabel;
   return looks;
 }

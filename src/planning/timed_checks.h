@@ -34,7 +34,8 @@ class TimedChecks {
   // Not before then it is worth trying to be at the place: at `at_s`, if nothing is known to be in
   // the way there; infinity, if something is seen to be in the way from then on.
   double FreeFrom(const ompl::base::State* part, double at_s);
-  // The same, looked at every 20 ms: hardly a gap is missed. If cancelled, what was found by then.
+  // The same, looked at every 20 ms for an hour: hardly a gap is missed. Where it is cancelled or
+  // the checker fails: what was found by then.
   double FreeFromClosely(const ompl::base::State* part, double at_s, double until_s,
                          const std::function<bool()>& cancelled);
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
@@ -47,6 +48,7 @@ class TimedChecks {
   // What is seen of a place at some times.
   struct Looks {
     std::optional<std::size_t> free;  // the first that found nothing in the way
+    bool unsure = false;              // of some there is no answer
     bool forever = false;             // what stands still is in the way
   };
   Looks LookAt(const std::vector<double>& seconds);                           // at first_

@@ -48,6 +48,12 @@ void SetMotion(MovingObject& object, bool after_gap, const SceneParams& params) 
                          *object.solid, params);
 }
 
+// Of an object of which no motion is known.
+PositionBound FirstBound(const MovingObject& object, const SceneParams& params) {
+  const StampedPose& last = object.history.back();
+  return BoundOf({&last, 1}, last.stamp, {}, *object.solid, params);
+}
+
 // Where the object's last half second or so would carry it, once it is known for a few frames.
 std::optional<PoseGuess> GuessOfTrack(const MovingObject& object, Time stamp) {
   constexpr std::size_t kFewest = 3;
@@ -162,6 +168,9 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     if (outlived) object.velocity_O = object.LastVelocity();
     if (object.velocity_O && (outlived || object.future.empty())) {
       object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.LastPose().stamp));
+      const PositionBound unknown = FirstBound(object, params);
+      const bool rests = *object.velocity_O == Twist{};
+      if (rests && unknown.At(1) < object.bound.At(1)) object.bound = unknown;
     }
     Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
     object.bridged = true;

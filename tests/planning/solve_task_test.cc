@@ -247,6 +247,24 @@ TEST(SolveTask, BadTasksAreRefusedByName) {
   expect("contact_resolution_m", [](PlanTask& t) { t.options.contact_resolution_m = 0; });
 }
 
+// What is told to be the least time is enough.
+TEST(SolveTask, TheTimeThatItTakesIsEnough) {
+  PlanTask task = AcrossThePlace();
+  for (const double x : {1.0, 2.1, 3.7, 0.123456789}) {
+    task.goal = {x, 3.3};
+    task.time_limit = seconds(1);
+    const std::string message(
+        SolveIn(TestWorld().Scene(), Disc(), task).outcome.status().message());
+    const std::size_t at = message.find("after ");
+    ASSERT_NE(at, std::string::npos) << message;
+    task.time_limit = FromSeconds(std::stod(message.substr(at + 6)));
+    const Solved solved = SolveFor(kAnyTime_s, TestWorld().Scene(), Disc(), task);
+    ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+    EXPECT_EQ(solved.outcome->status, PlanStatus::kFound);
+    EXPECT_LE(solved.plans.back().times.back(), task.start_time + task.time_limit);
+  }
+}
+
 TEST(SolveTask, AStartInTheScenesPastIsRefused) {
   TestWorld world;
   SceneSnapshot scene = *world.Scene();

@@ -2,6 +2,10 @@
 // expected to arrive when by hand they can.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
+#include "clearway/planning/task_setup.h"
+#include "planning/fixtures.h"
 #include "planning/solved_tasks.h"
 
 namespace clearway {
@@ -29,7 +33,7 @@ void GivenBut(Window window, TestWorld& world, ObjectId id, const Shape& shape, 
                {TestTime(window.from_s + 0.1), away},
                {TestTime(window.until_s), away},
                {TestTime(window.until_s + 0.1), there},
-               {TestTime(1000), there}});
+               {TestTime(10'000), there}});
 }
 
 // Until it is away the disc is kept 0.55 m before the goal.
@@ -83,6 +87,61 @@ TEST(SolveWindows, TheGoalIsFreeForShortLate) {
     PlanTask task = AcrossThePlace();
     task.time_limit = seconds(100);
     ExpectArrivesBy(from_s + 0.7, world.Scene(), task);
+  }
+}
+
+// What was looked at in one call of solve is not looked at again in the next one.
+TEST(SolveWindows, SolvedInSlicesItGoesOnWhereItStopped) {
+  TestWorld world;
+  GivenBut({1700, 1720}, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+  PlanTask task = AcrossThePlace();
+  task.time_limit = std::chrono::hours(1);
+  const auto setup = MakeTaskSetup(task, std::make_shared<SceneChecker>(world.Scene(), Disc()));
+  ASSERT_TRUE(setup.ok()) << setup.status();
+  (*setup)->setup();
+  int asked = 0;
+  ompl::base::PlannerStatus end;
+  for (int slice = 0; slice < 2000 && !end; ++slice) {
+    asked = 0;
+    end = (*setup)->getPlanner()->solve({[&] { return ++asked > 30; }});
+  }
+  EXPECT_EQ(end, ompl::base::PlannerStatus::EXACT_SOLUTION);
+}
+
+// Answers, but not from the second time on that it is asked for some times.
+class FalteringChecker : public FailingChecker {
+ public:
+  FalteringChecker(ScenePtr scene, const Robot& robot, int fails)
+      : FailingChecker(absl::UnavailableError("away")), checker_(scene, robot), fails_(fails) {}
+  absl::StatusOr<CheckReply> Check(const StateBatch& batch,
+                                   const CheckOptions& options) const override {
+    const int call = calls_++;
+    return call >= 1 && call <= fails_ ? FailingChecker::Check(batch, options)
+                                       : checker_.Check(batch, options);
+  }
+  absl::StatusOr<MotionReply> CheckMotions(const MotionBatch& batch,
+                                           const MotionOptions& options) const override {
+    return checker_.CheckMotions(batch, options);
+  }
+  const Robot& robot() const override { return checker_.robot(); }
+  std::uint64_t version() const override { return checker_.version(); }
+  Time stamp() const override { return checker_.stamp(); }
+
+ private:
+  SceneChecker checker_;
+  int fails_;
+  mutable std::atomic<int> calls_ = 0;
+};
+
+TEST(SolveWindows, NoAnswerIsNoTakenGoal) {
+  TestWorld world;
+  world.Given(1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 3, 0));
+  for (const int fails : {1, 2, 5, 20}) {
+    const auto setup = MakeTaskSetup(
+        AcrossThePlace(), std::make_shared<FalteringChecker>(world.Scene(), Disc(), fails));
+    ASSERT_TRUE(setup.ok()) << setup.status();
+    (*setup)->setup();
+    EXPECT_EQ((*setup)->getPlanner()->solve(60.0), ompl::base::PlannerStatus::EXACT_SOLUTION);
   }
 }
 

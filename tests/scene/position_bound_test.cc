@@ -214,6 +214,11 @@ TEST_F(BoundOfObject, OfWhatRestsGoesOnWhileNoPoseComes) {
   frame.poses.clear();
   frame.stamp += std::chrono::seconds(2);
   EXPECT_NEAR(After(frame).bound.At(1), before.bound.At(3), 1e-9);
+  // It is never less certain than what was just seen for the first time.
+  for (int k = 0; k < 300; ++k) {
+    frame.stamp += std::chrono::milliseconds(100);
+    EXPECT_LT(After(frame).bound.At(1), 1.1);
+  }
 }
 
 // Up to the future's end nothing is uncertain, and behind it, it begins there.

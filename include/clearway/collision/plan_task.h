@@ -65,11 +65,11 @@ struct PlanTask {
 // the area or of the joints' limits, what Validate says of the options.
 absl::Status Validate(const PlanTask& task, const Robot& robot);
 
-// A way from start to goal. From one configuration to the next the robot goes straight in its
-// space, at constant speed; between two equal ones it waits. A plain value.
 // Whether configurations of the space turn the robot as a whole, so that max_turn_radps is needed.
 bool Turns(const ConfigurationSpace& space);
 
+// A way from start to goal. From one configuration to the next the robot goes straight in its
+// space, at constant speed; between two equal ones it waits. A plain value.
 struct Plan {
   std::vector<Time> times;
   std::vector<std::vector<double>> configurations;  // as many
@@ -82,7 +82,8 @@ enum class PlanStatus {
   kFound,
   kNotFound,      // within the time that there was to think
   kStartBlocked,  // at the start time
-  // Whenever it was looked at, from when on it could be reached, every 20 ms.
+  // Whenever it was looked at, from when on it could be reached, every 20 ms: a shorter gap may be
+  // missed.
   kGoalBlocked,
   // The straight way is not free, and no place was found by way of which there is more time than
   // the limit leaves.

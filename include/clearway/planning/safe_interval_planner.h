@@ -54,7 +54,9 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   void SetFirstBatch(unsigned int places) { first_batch_ = places; }
   unsigned int GetFirstBatch() const { return first_batch_; }
 
-  // INVALID_START or INVALID_GOAL if none is valid; ABORT if the straight way is not free and no
+  // INVALID_START if none is valid; INVALID_GOAL if none is valid or, where they may be reached at
+  // any time, none was free when it was looked at, every 20 ms for an hour and then ever more
+  // seldom, as of other places; ABORT if the straight way is not free and no
   // place is found by way of which the latest time leaves more, or if the space is so wide (more
   // than some 1e5 times what can be reached in time) that no place within reach is found; TIMEOUT
   // if `until` held before a path was found; else EXACT_SOLUTION, with the earliest arrival found
