@@ -131,11 +131,7 @@ absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlag
       return simulation->Frames();
     }
     case SourceKind::kLidarFolder: {
-      auto folder = OpenFolder(spec, flags, flags.allow_missing_points);
-      if (absl::IsNotFound(folder.status()) && !flags.allow_missing_points) {
-        return absl::NotFoundError(
-            absl::StrCat(folder.status().message(), " (--allow-missing-points goes on without)"));
-      }
+      const auto folder = OpenFolder(spec, flags, flags.allow_missing_points);
       if (!folder.ok()) return folder.status();
       return folder->frames;
     }

@@ -34,8 +34,11 @@ class Words {
   const std::string& where() const { return where_; }
   const std::string& Text(std::size_t i) const { return words_[i]; }
   double Number(std::size_t i) {
+    constexpr double kMostOfAny = 1e6;
     double value = 0;
-    if (!absl::SimpleAtod(words_[i], &value) || !std::isfinite(value)) Fail(i, "a number");
+    if (!absl::SimpleAtod(words_[i], &value) || !(std::abs(value) <= kMostOfAny)) {
+      Fail(i, absl::StrCat("a number within ", kMostOfAny));
+    }
     return value;
   }
   int Integer(std::size_t i, int min) {
@@ -58,11 +61,13 @@ class Words {
   absl::Status status_;
 };
 
-// Lines that are not empty.
-absl::StatusOr<std::vector<Words>> ReadLines(const Path& path) {
+// Lines that are not empty. Where a file might be cut off in the middle of a number, the last one
+// must end.
+enum class LastLine { kEnds, kMayBeOpen };
+absl::StatusOr<std::vector<Words>> ReadLines(const Path& path, LastLine last) {
   const auto text = ReadWholeFile(path, kMaxBytes);
   if (!text.ok()) return text.status();
-  if (!text->empty() && text->back() != '\n') {
+  if (last == LastLine::kEnds && !text->empty() && text->back() != '\n') {
     return absl::InvalidArgumentError(
         absl::StrCat(path.string(), ": the last line does not end; the file seems cut off"));
   }
@@ -127,7 +132,7 @@ Pose BoxInCamera(const Eigen::Vector3d& bottom_C, double height_m, double turn_r
 }  // namespace
 
 absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
-  auto lines = ReadLines(path);
+  auto lines = ReadLines(path, LastLine::kMayBeOpen);
   if (!lines.ok()) return lines.status();
   const auto projection = Matrix(*lines, path, {"P2"}, 12);
   if (!projection.ok()) return projection.status();
@@ -145,7 +150,7 @@ absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
 absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
   constexpr double kEarthRadius_m = 6378137, kRadPerDeg = std::numbers::pi / 180;
   constexpr std::size_t kFewest = 6;  // latitude, longitude, altitude, roll, pitch, yaw
-  auto lines = ReadLines(path);
+  auto lines = ReadLines(path, LastLine::kEnds);
   if (!lines.ok()) return lines.status();
   std::vector<Pose> T_W_I;
   std::optional<std::pair<double, Eigen::Vector3d>> origin;  // scale, and the first place
@@ -175,7 +180,7 @@ absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
 // Columns: frame, track, type, truncated, occluded, alpha, four of the box in the image, height,
 // width, length, x, y, z, rotation_y, and of results a score.
 absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
-  auto lines = ReadLines(path);
+  auto lines = ReadLines(path, LastLine::kEnds);
   if (!lines.ok()) return lines.status();
   KittiLabels labels;
   for (Words& line : *lines) {

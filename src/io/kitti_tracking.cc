@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -26,8 +27,12 @@ constexpr std::uint64_t kMaxPointBytes = kRecordBytes * 20'000'000;
 // Images of the drives differ in size by a few pixels; the smallest one is in all of them.
 constexpr double kImageWidth = 1224, kImageHeight = 370;
 
-// Without a slash at its end.
-Path Plain(const Path& scans) { return scans.has_filename() ? scans : scans.parent_path(); }
+// However it is written: relative, with a slash at its end.
+Path Plain(const Path& scans) {
+  std::error_code error;
+  Path path = std::filesystem::absolute(scans, error).lexically_normal();
+  return path.has_filename() ? path : path.parent_path();
+}
 
 bool Holds(const ImageRegion& region, const Eigen::Vector2d& pixel) {
   return pixel.x() >= region.left && pixel.x() <= region.right && pixel.y() >= region.top &&
@@ -119,7 +124,10 @@ absl::StatusOr<std::vector<RecordedBox>> BoxesInWorld(const std::vector<KittiBox
 }  // namespace
 
 bool IsKittiTracking(const Path& scans) {
-  return Plain(scans).parent_path().filename() == "velodyne";
+  const Path folder = Plain(scans), root = folder.parent_path().parent_path();
+  std::error_code error;
+  return folder.parent_path().filename() == "velodyne" &&
+         std::filesystem::exists(root / "calib", error);
 }
 
 absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
@@ -136,6 +144,11 @@ absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
   if (!T_W_I.ok()) return T_W_I.status();
   const Path labels_path = root / "label_02" / table;
   auto labels = ReadKittiLabels(labels_path);
+  if (absl::IsNotFound(labels.status())) {
+    return absl::NotFoundError(absl::StrCat(labels.status().message(),
+                                            "; without labels (KITTI's testing half) nothing tells "
+                                            "what moves"));
+  }
   if (!labels.ok()) return labels.status();
   LidarScans result;
   result.name = absl::StrCat("KITTI tracking sequence ", folder.string());

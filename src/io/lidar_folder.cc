@@ -68,7 +68,9 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
     }
   }
   return absl::NotFoundError(
-      absl::StrCat(folder.string(), ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there"));
+      absl::StrCat(folder.string(),
+                   ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
+                   "sequence is named by the folder of its scans, training/velodyne/NNNN)"));
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace clearway {
 // rounds to the limit is in time.
 inline double LatestSeconds(Duration limit, double earliest_s) {
   const double limit_s = ToSeconds(limit);
-  return FromSeconds(earliest_s) <= limit ? std::max(limit_s, earliest_s) : limit_s;
+  const bool rounds_to_it = earliest_s <= limit_s + 1 && FromSeconds(earliest_s) <= limit;
+  return rounds_to_it ? std::max(limit_s, earliest_s) : limit_s;
 }
 
 // How long paths may take that are looked for where they may take `allowed_s`, and the straight way

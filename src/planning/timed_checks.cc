@@ -18,7 +18,7 @@ constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
 // on ways: of a place the answer is kept, of ways others are asked about, at other times.
 constexpr double kOfWhatPassedAtPlaces = 1.0 / 64, kOfWhatPassedOnWays = 1.0 / 8;
 // The same where hardly a gap is to be missed, for how long, and at how many times at once.
-constexpr double kLookClosely_s = 0.02, kClosely_s = 3600;
+constexpr double kLookClosely_s = 0.02, kGoneWithinClosely_s = 1e-3, kClosely_s = 3600;
 constexpr std::size_t kMostLooks = 1024;
 // Without proofs: how finely the end of a wait is looked for.
 constexpr double kWaitWithin_s = 0.02;
@@ -77,7 +77,7 @@ double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
 double TimedChecks::FreeFromClosely(const ob::State* part, double at_s, double until_s,
                                     const std::function<bool()>& cancelled) {
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  const double closely_until_s = std::min(until_s, at_s + kClosely_s);
+  const double from_s = at_s, closely_until_s = std::min(until_s, at_s + kClosely_s);
   std::vector<double> looks_s;
   std::size_t most = 1;
   for (bool more = true; more; most = std::min(2 * most, kMostLooks)) {
@@ -88,10 +88,13 @@ double TimedChecks::FreeFromClosely(const ob::State* part, double at_s, double u
       at_s = std::min(at_s + kLookClosely_s, closely_until_s);
     }
     const Looks looks = LookAt(looks_s);
-    if (looks.free) return looks_s[*looks.free];
+    if (looks.free && looks_s[*looks.free] == from_s) return from_s;
+    if (looks.free)
+      return FreeWithin(looks_s[*looks.free] - kLookClosely_s, looks_s[*looks.free],
+                        kGoneWithinClosely_s);
     if (looks.unsure) return looks_s.front();
     if (looks.forever) return std::numeric_limits<double>::infinity();
-    if (cancelled()) return looks_s.back();
+    if (cancelled()) return at_s;
   }
   return FreeAgain(closely_until_s, until_s, kOfWhatPassedAtPlaces);
 }
@@ -156,7 +159,12 @@ double TimedChecks::FreeAgain(double blocked_s, double until_s, double of_what_p
     const double look_s = std::min(there_s + wait_s, until_s);
     (IsFreeAt(look_s) ? gone_s : there_s) = look_s;
   }
-  while (gone_s - there_s > kGoneWithin_s) {
+  return FreeWithin(there_s, gone_s, kGoneWithin_s);
+}
+
+// From when on it is free, nearly: at the first time it is not.
+double TimedChecks::FreeWithin(double there_s, double gone_s, double within_s) {
+  while (gone_s - there_s > within_s) {
     const double middle_s = 0.5 * (there_s + gone_s);
     (IsFreeAt(middle_s) ? gone_s : there_s) = middle_s;
   }

@@ -54,6 +54,7 @@ class TimedChecks {
   Looks LookAt(const std::vector<double>& seconds);                           // at first_
   bool IsFreeAt(double seconds);                                              // the same
   double FreeAgain(double blocked_s, double until_s, double of_what_passed);  // the same
+  double FreeWithin(double there_s, double gone_s, double within_s);          // the same
 
   ompl::base::SpaceInformationPtr si_;
   const SpaceTimeStateSpace* space_;

@@ -73,9 +73,14 @@ class KittiTracking : public testing::Test {
 };
 
 TEST_F(KittiTracking, IsToldByItsFolder) {
-  EXPECT_TRUE(IsKittiTracking("/data/training/velodyne/0003"));
-  EXPECT_TRUE(IsKittiTracking("/data/training/velodyne/0003/"));
-  EXPECT_FALSE(IsKittiTracking("/data/velodyne"));
+  for (const char* name :
+       {"velodyne/0003", "velodyne/0003/", "velodyne/0003/.", "calib/../velodyne/0003"}) {
+    EXPECT_TRUE(IsKittiTracking(folder_ / name)) << name;
+    EXPECT_TRUE(OpenKittiTracking(folder_ / name).ok()) << name;
+  }
+  EXPECT_FALSE(IsKittiTracking(folder_ / "velodyne"));
+  // Of the project's own folders one may be called so.
+  EXPECT_FALSE(IsKittiTracking("/nowhere/velodyne/0003"));
 }
 
 TEST_F(KittiTracking, PosesAreEastNorthUp) {
@@ -143,6 +148,7 @@ TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "91 8 100 0 0 0\n"), HasSubstr("word 1: '91'"));
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "49 8 nan 0 0 0\n"), HasSubstr("word 3: 'nan'"));
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", "49 8 1e308 0 0 0\n"), HasSubstr("word 3: '1e308'"));
   EXPECT_THAT(ErrorWith("oxts/0003.txt", Oxts(0, 0)), HasSubstr("frame 1; oxts tells of 1"));
   folder_.Write("oxts/0003.txt", Oxts(0, 0) + Oxts(1, 0));
   const std::string labels = kLabels;
@@ -157,6 +163,7 @@ TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
   EXPECT_EQ(icp.status().code(), absl::StatusCode::kInvalidArgument);
   std::filesystem::remove(folder_ / "label_02/0003.txt");
   EXPECT_EQ(Open().status().code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(std::string(Open().status().message()), HasSubstr("without labels"));
 }
 
 }  // namespace

@@ -230,6 +230,7 @@ TEST(SolveTask, BadTasksAreRefusedByName) {
   expect("area.y", [](PlanTask& t) { t.area_W.max.y() = -5; });
   expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = 0; });
   expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = NAN; });
+  expect("time_limit_s is 30;", [](PlanTask& t) { t.max_speed_mps = 1e-300; });
   expect("max_turn_radps", [](PlanTask& t) {
     t.space = PlaneSpace{};
     t.start.push_back(0);

@@ -50,6 +50,19 @@ TEST(SolveWindows, TheGoalIsFreeOnce) {
   }
 }
 
+// At the limit or hardly before; it cannot be reached in time.
+TEST(SolveWindows, AGoalThatIsFreeAtTheLimitIsNotTaken) {
+  for (const int limit_ms : {10'026, 10'030, 10'036, 10'040, 10'100}) {
+    TestWorld world;
+    GivenBut({10, 900}, world, 1, Box{{0.5, 0.5, 2}}, Pose::Translation(4, 0, 0));
+    PlanTask task = AcrossThePlace();
+    task.time_limit = std::chrono::milliseconds(limit_ms);
+    const Solved solved = SolveIn(world.Scene(), Disc(), task, std::chrono::milliseconds(50));
+    ASSERT_TRUE(solved.outcome.ok()) << solved.outcome.status();
+    EXPECT_EQ(solved.outcome->status, PlanStatus::kNotFound) << limit_ms;
+  }
+}
+
 // The limit is tight, so that later paths are looked for too.
 TEST(SolveWindows, AGoalThatIsFreeAfterTheLimitAloneIsTaken) {
   TestWorld world;
