@@ -1,0 +1,112 @@
+#include "scene/reidentification.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "clearway/scene/scene_builder.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+using testing_support::Random;
+
+constexpr double kSpeed_mps = 8;
+const Eigen::Vector3d kCar(4, 1.8, 1.5), kPerson(0.6, 0.5, 1.7);
+
+Pose Driving(double t) { return Pose::Translation(kSpeed_mps * t, 0, 0); }
+
+// What of a box is seen from the front and from one side, or from behind and the other.
+std::vector<Eigen::Vector3d> Half(const Eigen::Vector3d& size_m, double side) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& p : BoxSurface(size_m, 0.08)) {
+    const bool end = p.x() * side >= size_m.x() / 2 - 1e-9;
+    const bool flank = p.y() * side >= size_m.y() / 2 - 1e-9;
+    if (end || flank) points.push_back(p);
+  }
+  return points;
+}
+
+class Reidentification : public testing::Test {
+ protected:
+  Reidentification() {
+    params_.motion = MotionModel::kTrack;
+    params_.rest_distance_m = 0;
+  }
+  // Seen with poses from one time until another.
+  MovingObject Seen(ObjectId id, double from_s, double until_s,
+                    const std::vector<Eigen::Vector3d>& points_B, const Pose& T_B_off = {}) {
+    SceneBuilder builder(params_, {}, pool_);
+    for (double t = from_s; t < until_s - 1e-9; t += 0.1) {
+      Frame frame = FrameAt(t);
+      const Pose T_W_B = Driving(t) * T_B_off;
+      AddObject(frame, id, T_W_B, points_B);
+      frame.poses.push_back({id, T_W_B});
+      EXPECT_TRUE(builder.Apply(frame).ok());
+    }
+    return *builder.Publish()->FindObject(id);
+  }
+
+  ThreadPool pool_{1};
+  SceneParams params_;
+};
+
+TEST_F(Reidentification, TheSameCarIsKnownAgain) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  for (const double side : {-1.0, 1.0}) {
+    const MovingObject young = Seen(9, 3.5, 4, Half(kCar, side));
+    const Time stamp = young.t_k();
+    const auto T_W_O = SeenAgainAt(lost, young, stamp, params_);
+    ASSERT_TRUE(T_W_O);
+    const Pose expected = Driving(ToSeconds(stamp - At(0))) * *lost.T_B_O;
+    EXPECT_LT((T_W_O->translation - expected.translation).norm(), 0.25);
+    EXPECT_LT(T_W_O->rotation.angularDistance(expected.rotation), 0.08);
+  }
+}
+
+TEST_F(Reidentification, OthersAreNotTakenForIt) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  const auto taken_for_it = [&](const MovingObject& young) {
+    return SeenAgainAt(lost, young, young.t_k(), params_).has_value();
+  };
+  EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, BoxSurface({7, 2.4, 3}, 0.08))));
+  EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, BoxSurface(kPerson, 0.08))));
+  EXPECT_FALSE(
+      taken_for_it(Seen(9, 3.5, 4, BoxSurface(kPerson, 0.08), Pose::Translation(0, 0.6, 0))));
+  // The same car, but elsewhere.
+  EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, Half(kCar, 1), Pose::Translation(0, 20, 0))));
+  // Hardly anything of it.
+  EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 3.6, {{2, 0, 0}, {2, 0.3, 0}, {2, 0.6, 0}})));
+  // After so long nobody knows.
+  EXPECT_FALSE(taken_for_it(Seen(9, 12, 12.5, Half(kCar, 1))));
+}
+
+TEST_F(Reidentification, JoinedItHasBothViewsAndBothTracks) {
+  const MovingObject lost = Seen(5, 0, 2, Half(kCar, -1));
+  const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  const Time stamp = young.t_k();
+  const Pose T_W_O = Driving(ToSeconds(stamp - At(0))) * *lost.T_B_O;
+  const MovingObject dut = Joined(lost, young, T_W_O, stamp, params_, pool_);
+  EXPECT_EQ(dut.id, 5);
+  EXPECT_EQ(dut.t_k(), stamp);
+  EXPECT_EQ(dut.history.size(), lost.history.size() + young.history.size());
+  for (const StampedPose& pose : dut.history) {
+    const Pose expected = Driving(ToSeconds(pose.stamp - At(0))) * *lost.T_B_O;
+    EXPECT_LT((pose.T_W_O.translation - expected.translation).norm(), 1e-6);
+  }
+  EXPECT_GT(dut.map_O.occupied_count(), 1.5 * lost.map_O.occupied_count());
+  ASSERT_TRUE(dut.velocity_O);
+  EXPECT_LT((dut.velocity_O->linear - Eigen::Vector3d(kSpeed_mps, 0, 0)).norm(), 1e-6);
+  ASSERT_TRUE(dut.T_B_O);
+  EXPECT_LT((dut.T_B_O->translation - lost.T_B_O->translation).norm(), 1e-6);
+  EXPECT_EQ(dut.tracked_since, young.history.front().stamp);
+  EXPECT_EQ(dut.frames_seen, lost.frames_seen + young.frames_seen);
+}
+
+}  // namespace
+}  // namespace clearway
