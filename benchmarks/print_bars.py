@@ -32,6 +32,7 @@ AT_LEAST = {
     "drive_start_frames": 20,
     "prediction_solids_1s_f": 0.9,
     "reconstruction_completeness": 0.98,
+    "reidentified_fraction": 0.95,
     "reconstruction_registered_accuracy_x": 2,
     "reconstruction_registered_completeness_x": 1,
     "reconstruction_occupied_precision": 0.97,
@@ -74,6 +75,9 @@ AT_MOST = {
     "reconstruction_accuracy_voxels": 0.5,
     "reconstruction_van_size_off_m": 0.2,
     "reconstruction_residual_voxels": 0,
+    "reidentified_wrong": 0,
+    "reidentified_wrong_table1": 0,
+    "reidentified_wrong_drive": 0,
 }
 
 

@@ -64,6 +64,7 @@ absl::Status TooManyCells(const std::string& field, double cells, std::uint64_t 
 ObjectInfo DescribeObject(const MovingObject& object) {
   ObjectInfo info;
   info.id = object.id;
+  info.also = object.also;
   info.T_W_O = object.history.back().T_W_O;
   info.t_k = object.t_k();
   info.velocity_O = object.velocity_O;

@@ -171,6 +171,8 @@ std::vector<Setting> SceneSettings() {
                        "mean error of objects' poses; not 0: views are registered to maps"),
       CLEARWAY_SETTING("scene.object_pose_error_rad", scene.object_pose_error_rad,
                        "the same of their angles"),
+      CLEARWAY_SETTING("scene.reidentify", scene.reidentify,
+                       "whether lost objects are known again under new ids"),
       CLEARWAY_SETTING(
           "scene.keep_distance_m", scene.keep_distance_m,
           "what of the static map lies farther from the sensor is forgotten; 0: nothing"),

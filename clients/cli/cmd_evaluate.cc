@@ -6,7 +6,9 @@
 #include <thread>
 #include <vector>
 
+#include "clearway/report/true_ids.h"
 #include "clearway/scene/scene_builder.h"
+#include "clearway/sim/forgetful_tracker.h"
 #include "clearway/sim/wrong_labels.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
@@ -18,6 +20,7 @@ namespace {
 
 constexpr char kExamples[] =
     "  clearway evaluate sim:street --noise table1\n"
+    "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
 
 constexpr std::uint64_t kSeed = 1;  // of wrong labels
@@ -30,7 +33,9 @@ struct Flags {
   double max_range_m = 50;
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
+  bool reidentify = false;
   double wrong_labels = 0;
+  std::optional<double> forget_s;
   bool json = false;
   std::string html;
 };
@@ -44,8 +49,35 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rest_distance_m = flags.rest_distance_m;
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
+  params.reidentify = flags.reidentify;
   return params;
 }
+
+// Frames as a segmentation and a tracker with their errors tell them.
+class Teller {
+ public:
+  explicit Teller(const Flags& flags) : wrong_labels_(flags.wrong_labels) {
+    if (flags.forget_s) tracker_.emplace(FromSeconds(*flags.forget_s));
+  }
+
+  Frame Tell(const Frame& frame) {
+    return WithWrongLabels(tracker_ ? tracker_->Retold(frame) : frame, wrong_labels_, kSeed);
+  }
+  // After Apply: the version as an evaluator wants it.
+  ScenePtr Judge(const Frame& told, const ScenePtr& scene) {
+    if (!tracker_) return scene;
+    identities_.Add(told, *scene, tracker_->true_ids());
+    return WithTrueIds(*scene, tracker_->true_ids());
+  }
+  std::optional<Identities> Result() const {
+    return tracker_ ? std::optional(identities_.Result()) : std::nullopt;
+  }
+
+ private:
+  double wrong_labels_;
+  std::optional<ForgetfulTracker> tracker_;
+  IdentityScore identities_;
+};
 
 absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
                                     const Terminal& terminal) {
@@ -57,19 +89,23 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
   Evaluator evaluator(source);
+  Teller teller(flags);
   ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
   std::uint64_t points = 0;
   for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
     const auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
-    const auto report = builder.Apply(WithWrongLabels(*frame, flags.wrong_labels, kSeed));
+    const Frame told = teller.Tell(*frame);
+    const auto report = builder.Apply(told);
     if (!report.ok()) return report.status();
-    evaluator.Add(k, *frame, builder.Publish());
+    evaluator.Add(k, *frame, teller.Judge(told, builder.Publish()));
     points += frame->points_S.size();
     progress.Update(k + 1, points);
   }
   progress.Finish();
-  return std::move(evaluator).Result();
+  Evaluation found = std::move(evaluator).Result();
+  found.identities = teller.Result();
+  return found;
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -122,6 +158,11 @@ void AddEvaluate(Cli& cli) {
                    "Give this share of the points a wrong label")
       ->check(Between(0, 1))
       ->capture_default_str();
+  command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
+  command
+      ->add_option("--forget", flags->forget_s,
+                   "Give objects that were out of sight for so many seconds\na new id")
+      ->check(Between(0, 1000));
   command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
       ->type_name("FILE");
   command->add_flag("--json", flags->json, "Print JSON");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/report/table.h"
 #include "cli/commands.h"
@@ -50,6 +51,7 @@ absl::Status AddPredictions(const SceneClient& client, Time time, std::vector<Ob
 Json AsJson(const ObjectRow& row) {
   const ObjectInfo& o = row.info;
   Json json = {{"id", o.id},
+               {"other_ids", o.also},
                {"frames_seen", o.frames_seen},
                {"occupied_voxels", o.occupied_voxels},
                {"observed_voxels", o.observed_voxels},
@@ -84,6 +86,12 @@ Json AsJson(const ObjectRow& row) {
   return json;
 }
 
+// The id that it goes by, then those under which it was known again.
+std::string IdsOf(const ObjectInfo& o) {
+  return o.also.empty() ? absl::StrCat(o.id)
+                        : absl::StrCat(o.id, ", ", absl::StrJoin(o.also, ", "));
+}
+
 // "moving", and what else a planner's author wants to know of the motion.
 std::string MotionOf(const ObjectInfo& o) {
   if (o.future_end) return "stated";
@@ -103,7 +111,7 @@ void PrintText(std::ostream& out, const ObjectList& list, const std::vector<Obje
   Table table(header);
   for (const ObjectRow& row : rows) {
     const ObjectInfo& o = row.info;
-    std::vector<std::string> cells = {absl::StrCat(o.id),
+    std::vector<std::string> cells = {IdsOf(o),
                                       absl::StrCat(o.frames_seen),
                                       Grouped(o.occupied_voxels),
                                       Size(o.extent.size_m),

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clearway/report/box_fit.h"
+#include "clearway/report/identity_score.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/report/surface_judge.h"
 #include "cli/truth_source.h"
@@ -33,6 +34,7 @@ struct Evaluation {
   std::map<ObjectId, ObjectFit> fits;
   std::map<ObjectId, std::vector<SolidOverlap>> solids;  // by kAhead
   std::optional<StaticFit> static_fit;
+  std::optional<Identities> identities;  // where objects came back under new ids
 };
 
 inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
@@ -48,7 +50,7 @@ class Evaluator {
  public:
   explicit Evaluator(const TrueSource& source);
 
-  // Frame k, of true labels, and the version after it.
+  // Frame k, of true labels, and the version after it, of objects under their true ids.
   void Add(std::size_t k, const Frame& frame, ScenePtr scene);
 
   // After the last frame; there must be one.

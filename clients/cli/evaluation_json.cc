@@ -73,6 +73,11 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
   }
   json["prediction"] = ToJson(Together(found.predictions));
   if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
+  if (found.identities) {
+    json["identities"] = {{"came_back", found.identities->came_back},
+                          {"known_again", found.identities->known_again},
+                          {"wrong", found.identities->wrong}};
+  }
   if (found.static_fit) json["static"] = ToJson(*found.static_fit);
   Print(out, json);
 }

@@ -15,8 +15,7 @@ std::string TextOf(double value, int digits) {
 
 void PrintPredictions(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "How far from its true place each object is predicted, in metres: median, and what 95 % "
-         "of "
-         "the\npredictions do not exceed.\n\n";
+         "of the\npredictions do not exceed.\n\n";
   std::vector<std::string> header = {"id", "what", "predictions"};
   for (const Duration ahead : kAhead) {
     header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
@@ -120,6 +119,12 @@ void PrintStatic(std::ostream& out, const StaticFit& fit) {
       << fit.Residual() << " occupied voxels are where nothing static is.\n";
 }
 
+void PrintIdentities(std::ostream& out, const Identities& found) {
+  out << "\nOf " << Plural(found.came_back, "time") << " that an object came back under a new id, "
+      << found.known_again << " were known again; " << Plural(found.wrong, "id")
+      << (found.wrong == 1 ? " was" : " were") << " taken for another object's.\n";
+}
+
 }  // namespace
 
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
@@ -129,6 +134,7 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (!found.solids.empty()) PrintSolids(out, source, found);
+  if (found.identities) PrintIdentities(out, *found.identities);
   if (found.static_fit) PrintStatic(out, *found.static_fit);
 }
 

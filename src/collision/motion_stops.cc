@@ -97,7 +97,7 @@ void MotionStops::StopAtObjects(const MovingPart& part, const MovingPart::Passag
   ball.until = context_.WorldTime(ball.until);
   context_.index.ForEachNear(box_W, ball.from, ball.until, options_.growth(), [&](std::size_t i) {
     const MovingObject& object = *scene_.objects[i];
-    if (Ignored(object.id) || Allowed(part.link(), object.id)) return;
+    if (IsIgnored(object, options_) || Allowed(part.link(), object.id)) return;
     if (!context_.index.MayMeet(i, ball, options_.growth())) return;
     StopAtObject(part, passage, i, stop);
   });
@@ -144,11 +144,6 @@ void MotionStops::StopAtObject(const MovingPart& part, const MovingPart::Passage
 
 bool MotionStops::Allowed(int link, ObjectId object) const {
   return context_.check.allowed_contacts.contains({link, object});
-}
-
-bool MotionStops::Ignored(ObjectId object) const {
-  const auto& ignored = options_.ignored_objects;
-  return std::find(ignored.begin(), ignored.end(), object) != ignored.end();
 }
 
 }  // namespace clearway

@@ -66,7 +66,6 @@ class MotionStops {
   void StopAtObject(const MovingPart& part, const MovingPart::Passage& passage, std::size_t object,
                     MotionStop& stop) const;
   bool Allowed(int link, ObjectId object) const;
-  bool Ignored(ObjectId object) const;
 
   const MotionContext& context_;
   const SceneSnapshot& scene_;

@@ -35,6 +35,21 @@ ObjectSolids PrepareSolids(const SceneSnapshot& scene) {
   return solids;
 }
 
+bool IsIgnored(const MovingObject& object, const CheckOptions& options) {
+  return std::any_of(options.ignored_objects.begin(), options.ignored_objects.end(),
+                     [&](ObjectId id) { return object.IsCalled(id); });
+}
+
+std::set<std::pair<int, ObjectId>> AllowedContacts(const CheckOptions& options,
+                                                   const SceneSnapshot& scene) {
+  std::set<std::pair<int, ObjectId>> allowed;
+  for (const auto& [link, id] : options.allowed_contacts) {
+    const MovingObject* const object = scene.FindObject(id);
+    allowed.emplace(link, object == nullptr ? id : object->id);
+  }
+  return allowed;
+}
+
 const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
   wanted_.clear();
   index_.ForEachNear(box_W, t, t, options_.growth(),
@@ -51,10 +66,7 @@ const std::vector<PlacedObject>& ObjectPlacer::Near(const Aabb& box_W, Time t) {
 
 std::optional<PlacedObject> ObjectPlacer::Place(std::size_t index, Time t) const {
   const MovingObject& object = *scene_.objects[index];
-  if (std::find(options_.ignored_objects.begin(), options_.ignored_objects.end(), object.id) !=
-      options_.ignored_objects.end()) {
-    return std::nullopt;
-  }
+  if (IsIgnored(object, options_)) return std::nullopt;
   const PredictedPose predicted = PredictPose(object, t, scene_.params.horizon);
   if (object.solid->box_O.Empty() && !predicted.beyond_horizon_radius_m) return std::nullopt;
   PlacedObject placed;

@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "clearway/collision/state_checker.h"
@@ -19,6 +21,12 @@ ObjectSolids PrepareSolids(const SceneSnapshot& scene);
 
 // By how much the object is grown at `t`, in metres.
 double InflationOf(const MovingObject& object, Time t, const CheckOptions& options);
+
+// By any of its ids.
+bool IsIgnored(const MovingObject& object, const CheckOptions& options);
+// The options' allowed contacts, by first ids alone.
+std::set<std::pair<int, ObjectId>> AllowedContacts(const CheckOptions& options,
+                                                   const SceneSnapshot& scene);
 
 // What an object blocks at one time: beyond its horizon a ball, else its solid. Refers to the scene
 // and to its shape.

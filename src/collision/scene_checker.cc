@@ -58,8 +58,7 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
                                                const std::function<bool()>& cancelled) const {
   if (auto status = Validate(options, robot()); !status.ok()) return status;
   if (auto status = Validate(states, robot()); !status.ok()) return status;
-  const std::set<std::pair<int, ObjectId>> allowed_contacts(options.allowed_contacts.begin(),
-                                                            options.allowed_contacts.end());
+  const auto allowed_contacts = AllowedContacts(options, *impl_->scene);
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
   ObjectPlacer objects(*impl_->scene, impl_->solids, impl_->index, options);
   const CheckContext context{*impl_->scene, options, allowed_contacts, objects, cancelled};
@@ -90,8 +89,7 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
                     options.check.bound_multiple,
                     {}};
   reply.answers.resize(motions.knot_counts.size());
-  const std::set<std::pair<int, ObjectId>> allowed_contacts(options.check.allowed_contacts.begin(),
-                                                            options.check.allowed_contacts.end());
+  const auto allowed_contacts = AllowedContacts(options.check, scene);
   ObjectPlacer objects(scene, impl_->solids, impl_->index, options.check);
   const CheckContext states{scene, options.check, allowed_contacts, objects, cancelled};
   const MotionContext context{states, impl_->solids, impl_->index, options};

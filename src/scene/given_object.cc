@@ -20,8 +20,12 @@ SceneObjects::iterator PlaceOf(ObjectId id, SceneObjects& objects) {
       [](const std::shared_ptr<const MovingObject>& object, ObjectId i) { return object->id < i; });
 }
 
-bool IsAt(SceneObjects::iterator place, ObjectId id, const SceneObjects& objects) {
-  return place != objects.end() && (*place)->id == id;
+// By any of its ids.
+SceneObjects::iterator Named(ObjectId id, SceneObjects& objects) {
+  const auto place = PlaceOf(id, objects);
+  if (place != objects.end() && (*place)->id == id) return place;
+  return std::find_if(objects.begin(), objects.end(),
+                      [&](const auto& object) { return object->IsCalled(id); });
 }
 
 // A pose in the addressable space, at a stamp that may be calculated with.
@@ -141,8 +145,7 @@ absl::Status ValidateGivenShape(const std::string& field, const Shape& shape) {
 absl::Status AddGiven(const GivenObject& given, const SceneParams& params,
                       const FrameLimits& limits, SceneObjects& objects) {
   if (auto status = Check(given, params, limits); !status.ok()) return status;
-  const auto place = PlaceOf(given.id, objects);
-  if (IsAt(place, given.id, objects)) {
+  if (Named(given.id, objects) != objects.end()) {
     return absl::AlreadyExistsError(
         absl::StrCat("object_id: the scene has an object ", given.id, " already"));
   }
@@ -160,14 +163,14 @@ absl::Status AddGiven(const GivenObject& given, const SceneParams& params,
   object.history = {Normalized(given.pose)};
   object.velocity_O = given.velocity_O.value_or(Twist{});
   object.first_seen = object.last_seen = given.pose.stamp;
-  objects.insert(place, std::make_shared<const MovingObject>(
-                            WithFuture(std::move(object), Normalized(given.future))));
+  objects.insert(PlaceOf(given.id, objects), std::make_shared<const MovingObject>(WithFuture(
+                                                 std::move(object), Normalized(given.future))));
   return absl::OkStatus();
 }
 
 absl::Status RemoveGiven(const std::string& field, ObjectId id, SceneObjects& objects) {
-  const auto place = PlaceOf(id, objects);
-  if (!IsAt(place, id, objects)) {
+  const auto place = Named(id, objects);
+  if (place == objects.end()) {
     return absl::NotFoundError(absl::StrCat(field, ": the scene has no object ", id));
   }
   if (!(*place)->given()) {
@@ -181,8 +184,8 @@ absl::Status RemoveGiven(const std::string& field, ObjectId id, SceneObjects& ob
 absl::Status StateFuture(ObjectId id, const std::vector<StampedPose>& poses,
                          const SceneParams& params, const FrameLimits& limits,
                          SceneObjects& objects) {
-  const auto place = PlaceOf(id, objects);
-  if (!IsAt(place, id, objects)) {
+  const auto place = Named(id, objects);
+  if (place == objects.end()) {
     return absl::NotFoundError(absl::StrCat("object_id: the scene has no object ", id));
   }
   if (auto status = CheckFuture("future", poses, (*place)->t_k(), params, limits); !status.ok()) {

@@ -93,6 +93,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   if (from != nullptr && from->given() != to.given()) from = nullptr;
   ObjectDelta delta;
   delta.id = to.id;
+  delta.also = to.also;
   delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O, detail);
   delta.history = to.history;
   delta.keeps_future = from != nullptr && KeepsFuture(*from, to);
@@ -117,6 +118,9 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
                                                                 const SceneParams& params) {
   const std::string field = absl::StrCat("objects[id=", delta.id, "]");
   if (delta.id <= kStaticLabel) return Malformed(absl::StrCat(field, ": object ids start at 1"));
+  for (const ObjectId id : delta.also) {
+    if (id <= kStaticLabel) return Malformed(absl::StrCat(field, ".other_ids: has ", id));
+  }
   if (auto status = CheckPoses(field, delta); !status.ok()) return status;
   if (auto status = CheckBound(field, delta.bound); !status.ok()) return status;
   if (base != nullptr && base->given() != delta.given) base = nullptr;
@@ -126,6 +130,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   MovingObject object;
   if (base != nullptr) object = *base;
   object.id = delta.id;
+  object.also = delta.also;
   object.history = delta.history;
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
   object.future_velocity_O = delta.future_velocity_O;

@@ -34,7 +34,7 @@ bool NearOccupied(const VoxelMap& map, const Eigen::Vector3d& p) {
 
 // Whether so many of the points lie where the object was seen before, and hardly any beyond it.
 bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O) {
-  constexpr double kOnSurface = 0.6, kWithin = 0.97, kBeyond_voxels = 2;
+  constexpr double kOnSurface = 0.5, kWithin = 0.99, kBeyond_voxels = 3;
   const double voxel_m = lost.map_O.grid().resolution_m();
   const Aabb box_O = lost.observed_box_O.Padded(kBeyond_voxels * voxel_m);
   std::size_t within = 0, near = 0;
@@ -67,44 +67,71 @@ Eigen::Vector3d VelocityOfCenter(const MovingObject& object, const Pose& T_W_O) 
   return T_W_O.rotation * (twist_O.linear + twist_O.angular.cross(center_O));
 }
 
-bool GoesAlike(const MovingObject& lost, const Pose& T_W_L, const MovingObject& young) {
-  if (!lost.velocity_O || !young.velocity_O || young.history.size() < 2) return true;
-  constexpr double kAlways_mps = 1, kOfSpeed = 0.3;
+bool GoesAlike(const MovingObject& lost, const Pose& T_W_L, const MovingObject& young,
+               double unseen_s) {
+  constexpr std::size_t kFewestPoses = 3;
+  if (!lost.velocity_O || !young.velocity_O || young.history.size() < kFewestPoses) return false;
+  constexpr double kAlways_mps = 0.5, kOfSpeed = 0.3, kOfSpeedPer_s = 0.06;
   const Eigen::Vector3d before_mps = VelocityOfCenter(lost, T_W_L);
   const Eigen::Vector3d now_mps = VelocityOfCenter(young, young.history.back().T_W_O);
-  return (now_mps - before_mps).norm() <= kAlways_mps + kOfSpeed * before_mps.norm();
+  return (now_mps - before_mps).norm() <=
+         kAlways_mps + (kOfSpeed + kOfSpeedPer_s * unseen_s) * before_mps.norm();
+}
+
+// How far from where it is predicted it may be; none if poses, and with them velocities (of about a
+// second), are off by so much that another one like it could be there. That one cannot be nearer to
+// it than its width, nor does what goes slowly get far.
+std::optional<double> Tolerance_m(const MovingObject& lost, double unseen_s,
+                                  const SceneParams& params) {
+  constexpr double kOfWidth = 0.5, kOfWay = 0.1;
+  const Eigen::Vector3d size_m = lost.observed_box_O.max - lost.observed_box_O.min;
+  const double beside_m = kOfWidth * std::min(size_m.x(), size_m.y());
+  if (params.object_pose_error_m * std::max(1.0, unseen_s) > beside_m) return std::nullopt;
+  return beside_m + kOfWay * lost.SpeedMps() * unseen_s;
+}
+
+// The first pose that is no prediction.
+const StampedPose& FirstPose(const MovingObject& object) {
+  return *std::find_if(object.history.begin(), object.history.end() - 1,
+                       [&](const StampedPose& p) { return p.stamp >= object.tracked_since; });
+}
+
+// The guess, mended so that the points, given in Y, fit.
+Pose Registered(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_Y,
+                const Pose& T_Y_L, double sigma_m, double unseen_s) {
+  constexpr double kTurns_radps = 0.05, kLeast_rad = 0.03;
+  const PoseGuess guess{T_Y_L, sigma_m, kLeast_rad + kTurns_radps * unseen_s};
+  return RegisterView(lost.map_O, points_Y, std::array{guess});
 }
 
 }  // namespace
 
-std::optional<Pose> SeenAgainAt(const MovingObject& lost, const MovingObject& young, Time stamp,
-                                const SceneParams& params) {
+std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
+                              const SceneParams& params) {
   constexpr std::size_t kFewest = 20;  // voxels
-  constexpr double kMostGone_rad_per_s = 0.2, kLeast_rad = 0.05, kLeast_m = 0.05;
-  const PredictedPose predicted = PredictPose(lost, stamp, params.horizon);
+  const std::vector<Eigen::Vector3d> points_Y = OccupiedCenters(young.map_O);
+  if (points_Y.size() < kFewest) return std::nullopt;
+  const StampedPose& first = FirstPose(young);
+  const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
-  std::vector<Eigen::Vector3d> points_W = OccupiedCenters(young.map_O);
-  if (points_W.size() < kFewest) return std::nullopt;
-  for (Eigen::Vector3d& p : points_W) p = young.history.back().T_W_O * p;
-  const double unseen_s = ToSeconds(stamp - lost.LastPose().stamp);
-  const double bound_m = std::max(lost.bound.At(unseen_s), kLeast_m);
-  const Pose T_W_L =
-      RegisterView(lost.map_O, points_W,
-                   std::array{PoseGuess{predicted.T_W_O, bound_m / 2,
-                                        kLeast_rad + kMostGone_rad_per_s * unseen_s}});
+  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
+  if (!GoesAlike(lost, predicted.T_W_O, young, unseen_s)) return std::nullopt;
+
+  const std::optional<double> tolerance_m = Tolerance_m(lost, unseen_s, params);
+  if (!tolerance_m) return std::nullopt;
+  const Pose T_Y_predicted = Inverse(first.T_W_O) * predicted.T_W_O;
+  const Pose T_Y_L = Registered(lost, points_Y, T_Y_predicted, *tolerance_m / 2, unseen_s);
   const Eigen::Vector3d center_O = lost.observed_box_O.Center();
-  if ((T_W_L * center_O - predicted.T_W_O * center_O).norm() > bound_m) return std::nullopt;
-  std::vector<Eigen::Vector3d> points_O = std::move(points_W);
-  const Pose T_L_W = Inverse(T_W_L);
-  for (Eigen::Vector3d& p : points_O) p = T_L_W * p;
-  const bool same =
-      Fits(lost, points_O) && IsAsLarge(lost, points_O) && GoesAlike(lost, T_W_L, young);
-  return same ? std::optional(T_W_L) : std::nullopt;
+  if ((T_Y_L * center_O - T_Y_predicted * center_O).norm() > *tolerance_m) return std::nullopt;
+  std::vector<Eigen::Vector3d> points_L = points_Y;
+  const Pose T_L_Y = Inverse(T_Y_L);
+  for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;
+  if (!Fits(lost, points_L) || !IsAsLarge(lost, points_L)) return std::nullopt;
+  return T_Y_L;
 }
 
-MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_W_O, Time stamp,
+MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_Y_L, Time stamp,
                     const SceneParams& params, ThreadPool& pool) {
-  const Pose T_Y_L = Inverse(young.history.back().T_W_O) * T_W_O;
   const Pose T_L_Y = Inverse(T_Y_L);
   ScanUpdate update;
   for (const Eigen::Vector3d& p_Y : OccupiedCenters(young.map_O)) {
@@ -126,12 +153,13 @@ MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_
     lost.velocity_O = Log(ahead);
   }
   if (young.T_B_O) lost.T_B_O = *young.T_B_O * T_Y_L;
-  lost.future.clear();
-  lost.future_velocity_O = {};
+  lost.future = FutureAfter(lost.future, stamp);
+  if (lost.future.empty()) lost.future_velocity_O = {};
   lost.tracked_since = since;
   lost.bridged = young.bridged;
   lost.last_seen = young.last_seen;
   lost.frames_seen += young.frames_seen;
+  lost.also.push_back(young.id);
   lost = WithMap(std::move(lost), std::move(map_O));
   lost.bound = BoundOf(lost.history, since, lost.velocity_O.value_or(Twist{}), *lost.solid, params);
   return lost;

@@ -9,16 +9,17 @@
 
 namespace clearway {
 
-// Where `lost` is at the stamp (T_W_O of its O) if `young`, which was seen there, is that object:
-// its voxels fit those of `lost`, near where that one is predicted; both are about as large, as far
-// as `young` was seen; and both go about alike, if that is known of both. None if `young` may be
-// another one, or has been seen too little to tell. `lost` must not have been seen since `young`
+// Where the frame L of `lost` is in the frame Y of `young` (T_Y_L) if that is the same object:
+// where `young` was first seen its voxels fit those of `lost`, near where that one was to be then;
+// both are about as large, as far as `young` was seen; and both go about alike. None if `young` may
+// be another one, or has been seen too little to tell. `lost` must not have been seen since `young`
 // was first.
-std::optional<Pose> SeenAgainAt(const MovingObject& lost, const MovingObject& young, Time stamp,
-                                const SceneParams& params);
+std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
+                              const SceneParams& params);
 
-// `lost`, where it is at the stamp, with the voxels and poses of `young`. It keeps its id and O.
-MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_W_O, Time stamp,
+// `lost` as it goes on, at the stamp, with the voxels and poses of `young`. It keeps its id and its
+// frame; the id of `young` names it too.
+MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_Y_L, Time stamp,
                     const SceneParams& params, ThreadPool& pool);
 
 }  // namespace clearway

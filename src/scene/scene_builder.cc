@@ -1,12 +1,14 @@
 #include "clearway/scene/scene_builder.h"
 
 #include <algorithm>
+#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "scene/dropped_object.h"
 #include "scene/given_object.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
+#include "scene/other_ids.h"
 
 namespace clearway {
 namespace {
@@ -105,9 +107,11 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.static_map_W;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
-  const std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
+  std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
+  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(scene_.objects, clues);
   for (const auto& object : scene_.objects) {
-    if (Continues(*object, clues, frame.stamp, scene_.params)) {
+    if (Continues(*object, clues, frame.stamp, scene_.params) &&
+        !two_after_all.contains(object->id)) {
       objects[object->id] = object;
     } else {
       ForgetFreeSpaceOf(*object, static_map_W);
@@ -125,6 +129,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     report.motions_ignored += !object.has_value();
     report.objects_created += object.has_value() && known == objects.end();
     if (object) objects[id] = std::make_shared<const MovingObject>(std::move(*object));
+  }
+  if (scene_.params.reidentify) {
+    report.objects_reidentified = JoinSeenAgain(objects, frame.stamp, scene_.params, *pool_);
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
 

@@ -11,6 +11,12 @@ namespace {
 
 absl::Status Malformed(const std::string& what) { return absl::InvalidArgumentError(what); }
 
+// Not under another of its ids: null then.
+const MovingObject* ObjectUnder(ObjectId first_id, const SceneSnapshot& scene) {
+  const MovingObject* object = scene.FindObject(first_id);
+  return object != nullptr && object->id == first_id ? object : nullptr;
+}
+
 }  // namespace
 
 SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to, MapDetail detail) {
@@ -23,11 +29,11 @@ SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to, MapDetail de
   if (from == nullptr || !(from->params == to.params)) delta.params = to.params;
   delta.static_map_W = DiffMaps(base.static_map_W, to.static_map_W, detail);
   for (const auto& object : to.objects) {
-    const MovingObject* before = base.FindObject(object->id);
+    const MovingObject* before = ObjectUnder(object->id, base);
     if (before != object.get()) delta.objects.push_back(DiffObjects(before, *object, detail));
   }
   for (const auto& object : base.objects) {
-    if (to.FindObject(object->id) == nullptr) delta.removed.push_back(object->id);
+    if (ObjectUnder(object->id, to) == nullptr) delta.removed.push_back(object->id);
   }
   return delta;
 }

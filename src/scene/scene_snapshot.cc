@@ -93,6 +93,7 @@ void ContentHasher::Add(const SceneParams& params) {
   Add(params.rest_distance_m);
   Add(params.object_pose_error_m);
   Add(params.object_pose_error_rad);
+  Add(std::int64_t{params.reidentify});
   Add(params.keep_distance_m);
   Add(params.bounds_W);
   Add(params.keep_out_W);
@@ -101,6 +102,8 @@ void ContentHasher::Add(const SceneParams& params) {
 
 void ContentHasher::Add(const MovingObject& object) {
   Add(std::int64_t{object.id});
+  Add(static_cast<std::int64_t>(object.also.size()));
+  for (const ObjectId id : object.also) Add(std::int64_t{id});
   Add(object.map_O);
   Add(object.history);
   Add(object.velocity_O);
@@ -148,8 +151,8 @@ bool SameShape(const MovingObject& a, const MovingObject& b) {
 }
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
-  return a.id == b.id && a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
-         a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
+  return a.id == b.id && a.also == b.also && a.map_O == b.map_O && a.history == b.history &&
+         a.future == b.future && a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
          a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
          a.bound == b.bound && a.tracked_since == b.tracked_since;
@@ -186,7 +189,10 @@ const MovingObject* SceneSnapshot::FindObject(ObjectId id) const {
   const auto found = std::lower_bound(
       objects.begin(), objects.end(), id,
       [](const std::shared_ptr<const MovingObject>& object, ObjectId i) { return object->id < i; });
-  return found != objects.end() && (*found)->id == id ? found->get() : nullptr;
+  if (found != objects.end() && (*found)->id == id) return found->get();
+  const auto other = std::find_if(objects.begin(), objects.end(),
+                                  [&](const auto& object) { return object->IsCalled(id); });
+  return other == objects.end() ? nullptr : other->get();
 }
 
 std::string SceneSnapshot::Hash() const {

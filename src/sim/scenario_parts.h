@@ -2,6 +2,7 @@
 // so that rounding does not move it from one voxel to another.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "clearway/sim/simulation.h"
@@ -15,6 +16,7 @@ SimulationSpec CrossingSpec();
 SimulationSpec StreetSpec();
 SimulationSpec LabSpec();
 SimulationSpec SmallSpec();
+SimulationSpec OcclusionsSpec(std::uint64_t seed);
 
 // At x, y, z, turned to the left about z.
 Pose PlacedAt(double x_m, double y_m, double z_m, double yaw_rad = 0);

@@ -14,10 +14,20 @@ namespace {
 
 struct Scenario {
   const char* name;
-  SimulationSpec (*spec)();
+  SimulationSpec (*spec)(std::uint64_t seed);
 };
-constexpr std::array<Scenario, 4> kScenarios = {
-    {{"crossing", CrossingSpec}, {"street", StreetSpec}, {"lab", LabSpec}, {"small", SmallSpec}}};
+
+// For worlds that do not depend on the seed.
+template <SimulationSpec (*kSpec)()>
+SimulationSpec Always(std::uint64_t) {
+  return kSpec();
+}
+
+constexpr std::array<Scenario, 5> kScenarios = {{{"crossing", Always<CrossingSpec>},
+                                                 {"street", Always<StreetSpec>},
+                                                 {"lab", Always<LabSpec>},
+                                                 {"small", Always<SmallSpec>},
+                                                 {"occlusions", OcclusionsSpec}}};
 
 absl::Status Refused(const char* field, double value, const char* limit) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", value, " is not ", limit));
@@ -108,7 +118,7 @@ std::vector<std::string> ScenarioNames() {
 absl::StatusOr<Simulation> MakeScenario(const std::string& name, const ScenarioOptions& options) {
   for (const Scenario& scenario : kScenarios) {
     if (name != scenario.name) continue;
-    SimulationSpec spec = scenario.spec();
+    SimulationSpec spec = scenario.spec(options.seed);
     if (absl::Status status = Apply(options, spec); !status.ok()) return status;
     return Simulation(std::move(spec));
   }

@@ -61,6 +61,7 @@ class DeltaWriter {
   void AddObject(const ObjectDelta& object) {
     v1::ObjectDelta* proto = part_.add_objects();
     proto->set_object_id(object.id);
+    proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
     for (const StampedPose& entry : object.history) {
       proto->add_history_ns(ToNanoseconds(entry.stamp));
       Append(entry.T_W_O, proto->mutable_history_world_from_object());
@@ -96,6 +97,7 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   FieldReader read(field + ".");
   ObjectDelta object;
   object.id = proto.object_id();
+  object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
   const std::vector<Pose> poses = read.Poses(
       "history_world_from_object", proto.history_world_from_object(), proto.history_ns_size());
   for (int i = 0; i < proto.history_ns_size() && read.ok(); ++i) {

@@ -126,6 +126,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_objects_created(ack.report.objects_created);
   report->set_objects_dropped(ack.report.objects_dropped);
   report->set_points_given(ack.report.points_given);
+  report->set_objects_reidentified(ack.report.objects_reidentified);
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -143,6 +144,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.objects_created = report.objects_created();
   ack.report.objects_dropped = report.objects_dropped();
   ack.report.points_given = report.points_given();
+  ack.report.objects_reidentified = report.objects_reidentified();
   return ack;
 }
 

@@ -26,6 +26,7 @@ ObjectExtent ReadExtent(FieldReader& read, const v1::UprightBox& proto) {
 
 void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_object_id(object.id);
+  proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
   Write(object.T_W_O, proto->mutable_world_from_object());
   proto->set_pose_stamp_ns(ToNanoseconds(object.t_k));
   if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
@@ -49,6 +50,7 @@ absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
   FieldReader read;
   ObjectInfo object;
   object.id = proto.object_id();
+  object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
   object.T_W_O =
       read.ReadPose("world_from_object", proto.has_world_from_object(), proto.world_from_object());
   object.t_k = TimeFromNanoseconds(proto.pose_stamp_ns());

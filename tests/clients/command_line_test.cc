@@ -206,6 +206,20 @@ TEST(CommandLine, EvaluatesWithWrongLabels) {
   EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
 }
 
+TEST(CommandLine, EvaluatesWhatIsKnownAgain) {
+  const auto identities = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"evaluate", "sim:occlusions", "--seed", "5", "--frames", "60",
+                                 "--forget", "0.5", "--motion", "track", "--json"});
+    return nlohmann::json::parse(Clearway(flags).out)["identities"];
+  };
+  const auto without = identities({}), with = identities({"--reidentify"});
+  EXPECT_GE(without["came_back"], 3);
+  EXPECT_EQ(without["known_again"], 0);
+  EXPECT_EQ(with["came_back"], without["came_back"]);
+  EXPECT_EQ(with["known_again"], with["came_back"]);
+  EXPECT_EQ(with["wrong"], 0);
+}
+
 TEST(CommandLine, EvaluatesOnlyWhatTellsTheTruth) {
   const TemporaryFolder folder;
   const Finished dut = Clearway({"evaluate", folder / "drive.cwr"});

@@ -24,7 +24,7 @@ REGISTER_TYPED_TEST_SUITE_P(
     TheInsideOfAnObjectIsItsHullOrItsVoxelsAlone, GivenObjectsAreTheirShape,
     StatedFuturesAreFollowed, MotionsAreCheckedAgainstStatedFutures, PaddingGrowsTheRobot,
     InflationGrowsWithTheTimeSinceAnObjectWasPlaced, BoundsGrowWithTheTimeSinceAnObjectsLastPose,
-    InflationMaySpareWhatIsKnownToRest, IgnoredObjectsAreNotThere,
+    InflationMaySpareWhatIsKnownToRest, IgnoredObjectsAreNotThere, EveryIdOfAnObjectNamesIt,
     AllowedContactsHoldForTheirLinkAlone, TheLowestLinkThenObjectIsReported,
     ClearanceIsTheDistanceToWhatBlocks, ClearanceEndsWhereItWasAskedTo,
     EveryShapeReachesAsFarAsItShould, AClosedMeshIsSolid, PosesOfShapesInTheirLinkCount,

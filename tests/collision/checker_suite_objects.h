@@ -182,6 +182,18 @@ TYPED_TEST_P(CheckerSuite, IgnoredObjectsAreNotThere) {
   ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kFree, -1, 0);
 }
 
+TYPED_TEST_P(CheckerSuite, EveryIdOfAnObjectNamesIt) {
+  const std::vector<VoxelKey> cube = VoxelCuboid({-1, -1, -1}, {1, 1, 1});
+  const auto dut = this->Make(this->Room().Object(4, cube, Pose{}).Also({7, 9}), this->Ball());
+  CheckOptions options;
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kOccupied, 0, 4);
+  options.ignored_objects = {9};
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kFree, -1, 0);
+  options.ignored_objects = {};
+  options.allowed_contacts = {{0, 7}};
+  ExpectAnswer(this->Ask(*dut, At(0, 0, 0), options), SpaceStatus::kFree, -1, 0);
+}
+
 TYPED_TEST_P(CheckerSuite, AllowedContactsHoldForTheirLinkAlone) {
   const auto dut = this->Make(this->Room().Object(4, VoxelCuboid({-1, -1, -1}, {1, 1, 1}), Pose{}),
                               this->TwoBalls());

@@ -77,6 +77,12 @@ class TestWorld {
     scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
     return *this;
   }
+  TestWorld& Also(std::vector<ObjectId> ids) {
+    MovingObject object = *scene_.objects.back();
+    object.also = std::move(ids);
+    scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
+    return *this;
+  }
   TestWorld& Future(std::vector<StampedPose> future) {
     scene_.objects.back() =
         std::make_shared<const MovingObject>(WithFuture(*scene_.objects.back(), std::move(future)));

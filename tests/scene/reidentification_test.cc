@@ -40,11 +40,12 @@ class Reidentification : public testing::Test {
   }
   // Seen with poses from one time until another.
   MovingObject Seen(ObjectId id, double from_s, double until_s,
-                    const std::vector<Eigen::Vector3d>& points_B, const Pose& T_B_off = {}) {
+                    const std::vector<Eigen::Vector3d>& points_B, const Pose& T_B_off = {},
+                    double direction = 1) {
     SceneBuilder builder(params_, {}, pool_);
     for (double t = from_s; t < until_s - 1e-9; t += 0.1) {
       Frame frame = FrameAt(t);
-      const Pose T_W_B = Driving(t) * T_B_off;
+      const Pose T_W_B = Driving(from_s + direction * (t - from_s)) * T_B_off;
       AddObject(frame, id, T_W_B, points_B);
       frame.poses.push_back({id, T_W_B});
       EXPECT_TRUE(builder.Apply(frame).ok());
@@ -60,19 +61,18 @@ TEST_F(Reidentification, TheSameCarIsKnownAgain) {
   const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
   for (const double side : {-1.0, 1.0}) {
     const MovingObject young = Seen(9, 3.5, 4, Half(kCar, side));
-    const Time stamp = young.t_k();
-    const auto T_W_O = SeenAgainAt(lost, young, stamp, params_);
-    ASSERT_TRUE(T_W_O);
-    const Pose expected = Driving(ToSeconds(stamp - At(0))) * *lost.T_B_O;
-    EXPECT_LT((T_W_O->translation - expected.translation).norm(), 0.25);
-    EXPECT_LT(T_W_O->rotation.angularDistance(expected.rotation), 0.08);
+    const auto T_Y_L = SeenAgain(lost, young, params_);
+    ASSERT_TRUE(T_Y_L);
+    const Pose expected = Inverse(*young.T_B_O) * *lost.T_B_O;
+    EXPECT_LT((T_Y_L->translation - expected.translation).norm(), 0.25);
+    EXPECT_LT(T_Y_L->rotation.angularDistance(expected.rotation), 0.08);
   }
 }
 
 TEST_F(Reidentification, OthersAreNotTakenForIt) {
   const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
   const auto taken_for_it = [&](const MovingObject& young) {
-    return SeenAgainAt(lost, young, young.t_k(), params_).has_value();
+    return SeenAgain(lost, young, params_).has_value();
   };
   EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, BoxSurface({7, 2.4, 3}, 0.08))));
   EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, BoxSurface(kPerson, 0.08))));
@@ -82,16 +82,28 @@ TEST_F(Reidentification, OthersAreNotTakenForIt) {
   EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, Half(kCar, 1), Pose::Translation(0, 20, 0))));
   // Hardly anything of it.
   EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 3.6, {{2, 0, 0}, {2, 0.3, 0}, {2, 0.6, 0}})));
+  // The other way round, in its place.
+  EXPECT_FALSE(taken_for_it(Seen(9, 3.5, 4, BoxSurface(kCar, 0.08), {}, -1)));
   // After so long nobody knows.
   EXPECT_FALSE(taken_for_it(Seen(9, 12, 12.5, Half(kCar, 1))));
+}
+
+// One like it could be beside it.
+TEST_F(Reidentification, NothingIsKnownAgainByPosesThatAreFarOff) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  params_.object_pose_error_m = 0.5;
+  EXPECT_TRUE(SeenAgain(lost, young, params_));
+  params_.object_pose_error_m = 1.2;
+  EXPECT_FALSE(SeenAgain(lost, young, params_));
 }
 
 TEST_F(Reidentification, JoinedItHasBothViewsAndBothTracks) {
   const MovingObject lost = Seen(5, 0, 2, Half(kCar, -1));
   const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
   const Time stamp = young.t_k();
-  const Pose T_W_O = Driving(ToSeconds(stamp - At(0))) * *lost.T_B_O;
-  const MovingObject dut = Joined(lost, young, T_W_O, stamp, params_, pool_);
+  const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
+  const MovingObject dut = Joined(lost, young, T_Y_L, stamp, params_, pool_);
   EXPECT_EQ(dut.id, 5);
   EXPECT_EQ(dut.t_k(), stamp);
   EXPECT_EQ(dut.history.size(), lost.history.size() + young.history.size());

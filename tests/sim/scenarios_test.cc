@@ -76,7 +76,7 @@ std::map<ObjectId, std::size_t> MostPoints(const Simulation& simulation, std::si
 }
 
 TEST(ScenariosTest, EveryNameMakesFrames) {
-  EXPECT_THAT(ScenarioNames(), ElementsAre("crossing", "street", "lab", "small"));
+  EXPECT_THAT(ScenarioNames(), ElementsAre("crossing", "street", "lab", "small", "occlusions"));
   for (const std::string& name : ScenarioNames()) {
     const auto dut = MakeScenario(name);
     ASSERT_TRUE(dut.ok());
@@ -216,6 +216,21 @@ TEST(LabTest, TheCameraStaysInFreeAir) {
   for (std::size_t k = 0; k < dut->frame_count(); ++k) {
     EXPECT_EQ(dut->world().Touched(Sphere{0.3}, dut->TrueT_W_S(k), dut->StampOf(k)), std::nullopt);
   }
+}
+
+TEST(OcclusionsTest, NobodyRunsIntoAnything) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    ExpectNoAccidents(*MakeScenario("occlusions", {.seed = seed}), 60);
+  }
+}
+
+TEST(OcclusionsTest, EverySeedIsAnotherWorld) {
+  const auto place = [](std::uint64_t seed) {
+    const auto simulation = MakeScenario("occlusions", {.seed = seed});
+    return simulation->world().T_W_B(1, simulation->StampOf(0))->translation;
+  };
+  EXPECT_EQ(place(1), place(1));
+  EXPECT_GT((place(1) - place(2)).norm(), 0.1);
 }
 
 TEST(ScenariosTest, UnknownNamesAreRefusedWithTheKnownOnes) {

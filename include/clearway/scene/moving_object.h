@@ -1,6 +1,7 @@
 // One object's map in its own frame, and where that frame is at any time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -65,6 +66,9 @@ struct ObjectGrowth {
 // A moving object as of one scene version. Immutable once published; any thread may read it.
 struct MovingObject {
   ObjectId id = 0;
+  // Others under which it was seen again after it had been lost (SceneParams::reidentify), the
+  // newest last. They name it as well.
+  std::vector<ObjectId> also;
   VoxelMap map_O{0.1};  // hits in O
   // Of a given object, which was told and not seen (see given_object.h): in O, never a
   // TriangleMesh. Null for a reconstructed one.
@@ -98,6 +102,9 @@ struct MovingObject {
   bool bridged = false;  // the last pose is a prediction: points came without a motion
 
   Time t_k() const { return history.back().stamp; }
+  bool IsCalled(ObjectId name) const {
+    return name == id || std::find(also.begin(), also.end(), name) != also.end();
+  }
   bool given() const { return given_shape != nullptr; }
   // Whether its solid's shape counts as occupied: its voxels alone may (SolidMode), if it has any.
   bool FillsSolid(SolidMode mode) const { return given() || mode == SolidMode::kConvexHull; }

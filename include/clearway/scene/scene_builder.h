@@ -25,6 +25,8 @@ struct FrameReport {
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   std::size_t objects_created = 0;
   std::size_t objects_dropped = 0;  // one that begins anew is dropped and created
+  // Known again under another id (SceneParams::reidentify).
+  std::size_t objects_reidentified = 0;
   // Of those used, the ones of given objects: their rays clear, and they hit nothing.
   std::size_t points_given = 0;
 };

@@ -26,6 +26,7 @@ using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
 // whole: it is small.
 struct ObjectDelta {
   ObjectId id = 0;
+  std::vector<ObjectId> also;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::vector<StampedPose> history;
   std::vector<StampedPose> future;

@@ -46,6 +46,9 @@ struct SceneParams {
   // the angle. If one of them is not zero, each view of an object is registered to the object's own
   // map, and the object is where it fits. 0 and 0: objects are where the source says.
   double object_pose_error_m = 0, object_pose_error_rad = 0;
+  // Whether an object that was lost and is seen again under another id is known again, by where it
+  // is predicted and by its shape. It then goes on under its first id, and the other names it too.
+  bool reidentify = false;
 
   // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
   // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of

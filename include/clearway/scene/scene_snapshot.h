@@ -35,7 +35,8 @@ struct SceneSnapshot {
   // The version without a frame.
   static SceneSnapshot Empty(const SceneParams& params);
 
-  const MovingObject* FindObject(ObjectId id) const;  // null if there is none
+  // By any of its ids; null if there is none.
+  const MovingObject* FindObject(ObjectId id) const;
 
   // 32 hex digits (XXH3-128): equal scenes have equal hashes on every machine and with any
   // number of threads. Covers all but `version`.

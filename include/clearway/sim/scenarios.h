@@ -13,7 +13,7 @@ namespace clearway {
 
 // Choices that every scenario offers. A plain value; default: exact, at full size.
 struct ScenarioOptions {
-  std::uint64_t seed = 1;  // of all noise; the worlds do not depend on it
+  std::uint64_t seed = 1;  // of all noise, and of the world of `occlusions`
   SlamNoise noise = {};
   double range_noise_m = 0;
   ObjectReport report = ObjectReport::kMotions;
@@ -31,6 +31,8 @@ struct ScenarioOptions {
 // street: a drive of 480 m past 14 moving objects with a LiDAR on the roof, 10 Hz. 0.1 m voxels.
 // lab: a room with swinging and turning boxes before a depth camera, 8 s at 15 Hz. 0.05 m voxels.
 // small: a box, a cylinder and a wedge before a wall, seen by a small LiDAR: quick, for tests.
+// occlusions: traffic, cyclists and pedestrians who go out of a LiDAR's sight behind walls and each
+//   other, 20 s at 10 Hz; another world for each seed. 0.1 m voxels.
 std::vector<std::string> ScenarioNames();
 
 // NOT_FOUND for an unknown name, listing the known ones; INVALID_ARGUMENT naming the option.

@@ -21,7 +21,8 @@ struct SceneQuery {
 
 struct ObjectInfo {
   ObjectId id = 0;
-  Pose T_W_O;  // at t_k
+  std::vector<ObjectId> also;  // see MovingObject
+  Pose T_W_O;                  // at t_k
   Time t_k;
   std::optional<Twist> velocity_O;
   double speed_mps = 0;

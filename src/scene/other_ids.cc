@@ -1,0 +1,97 @@
+#include "scene/other_ids.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "scene/reidentification.h"
+
+namespace clearway {
+namespace {
+
+// What is known for longer is another object, or it would have been known again.
+constexpr Duration kYoung = std::chrono::seconds(2);
+// So long is waited before maps are joined, unless the new one goes out of sight before: of a first
+// glimpse (a flank without its ends) nobody knows where exactly it fits.
+constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
+
+bool IsToBeJoined(const MovingObject& object, Time stamp) {
+  if (object.given() || stamp - object.first_seen > kYoung) return false;
+  const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
+  return glimpsed == (object.last_seen < stamp);
+}
+
+std::vector<ObjectId> IdsOf(const MovingObject& object) {
+  std::vector<ObjectId> ids = object.also;
+  ids.insert(ids.begin(), object.id);
+  return ids;
+}
+
+struct Match {
+  ObjectId lost, young;
+  Pose T_Y_L;  // of their frames
+};
+
+std::vector<Match> MatchesOf(const MovingObject& young,
+                             const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
+                             Time stamp, const SceneParams& params) {
+  std::vector<Match> matches;
+  if (!IsToBeJoined(young, stamp)) return {};
+  for (const auto& [id, lost] : objects) {
+    if (lost->given() || lost->t_k() >= young.first_seen) continue;
+    const std::optional<Pose> T_Y_L = SeenAgain(*lost, young, params);
+    if (T_Y_L) matches.push_back({id, young.id, *T_Y_L});
+  }
+  return matches;
+}
+
+}  // namespace
+
+std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
+                                       std::map<ObjectId, ObjectClue>& clues) {
+  std::set<ObjectId> two_after_all;
+  for (const auto& object : objects) {
+    if (object->also.empty()) continue;
+    std::vector<std::map<ObjectId, ObjectClue>::iterator> told;  // those with points last
+    for (const ObjectId id : IdsOf(*object)) {
+      if (const auto clue = clues.find(id); clue != clues.end()) told.push_back(clue);
+    }
+    const auto seen = std::stable_partition(
+        told.begin(), told.end(), [](const auto& clue) { return clue->second.points.empty(); });
+    if (told.empty()) continue;
+    if (told.end() - seen > 1) {
+      two_after_all.insert(object->id);
+      continue;
+    }
+    const ObjectClue newest = told.back()->second;
+    for (const auto& clue : told) clues.erase(clue);
+    clues[object->id] = newest;
+  }
+  return two_after_all;
+}
+
+std::size_t JoinSeenAgain(std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
+                          Time stamp, const SceneParams& params, ThreadPool& pool) {
+  std::vector<Match> matches;
+  for (const auto& [id, object] : objects) {
+    const std::vector<Match> of_object = MatchesOf(*object, objects, stamp, params);
+    matches.insert(matches.end(), of_object.begin(), of_object.end());
+  }
+  std::size_t joined = 0;
+  for (const Match& match : matches) {
+    const auto same = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
+      return other.lost == match.lost || other.young == match.young;
+    });
+    if (same > 1) continue;
+    const MovingObject& lost = *objects.at(match.lost);
+    const MovingObject& young = *objects.at(match.young);
+    objects[match.lost] =
+        std::make_shared<const MovingObject>(Joined(lost, young, match.T_Y_L, stamp, params, pool));
+    objects.erase(match.young);
+    ++joined;
+  }
+  return joined;
+}
+
+}  // namespace clearway

@@ -1,0 +1,216 @@
+// Objects that go by several ids, through the scene that makes them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "clearway/scene/scene_builder.h"
+#include "clearway/scene/scene_delta.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing::ElementsAre;
+using testing_support::AddObject;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+
+constexpr double kPeriod_s = 0.1;
+const std::vector<Eigen::Vector3d> kCar = BoxSurface({4, 1.8, 1.5}, 0.08);
+
+// A car that drives along x, `behind_m` behind the first.
+Pose Driving(double t, double behind_m = 0) { return Pose::Translation(8 * t - behind_m, 0, 0); }
+
+class OtherIds : public testing::Test {
+ protected:
+  OtherIds() {
+    params_.motion = MotionModel::kTrack;
+    params_.reidentify = true;
+  }
+  void SetUp() override { dut_.emplace(params_, FrameLimits{}, pool_); }
+
+  // What is seen of the car at that time, and its motion since the frame before.
+  void See(Frame& frame, ObjectId id, double t, bool first, double behind_m = 0) {
+    AddObject(frame, id, Driving(t, behind_m), kCar);
+    const Pose H_W = Driving(t, behind_m) * Inverse(Driving(t - kPeriod_s, behind_m));
+    if (!first) frame.motions.push_back({id, H_W, At(t - kPeriod_s)});
+  }
+  // Seen in every frame of that time.
+  void SeeFor(ObjectId id, double from_s, double until_s) {
+    for (double t = from_s; t < until_s - 1e-9; t += kPeriod_s) {
+      Frame frame = FrameAt(t);
+      See(frame, id, t, t == from_s);
+      Apply(frame);
+    }
+  }
+  void LoseAndSeeAgain() {
+    SeeFor(5, 0, 2);
+    SeeFor(9, 3.5, 4.5);
+  }
+  void Apply(const Frame& frame) {
+    const auto report = dut_->Apply(frame);
+    ASSERT_TRUE(report.ok()) << report.status();
+    created_ += report->objects_created;
+    dropped_ += report->objects_dropped;
+    reidentified_ += report->objects_reidentified;
+    versions_.push_back(dut_->Publish());
+  }
+  const SceneSnapshot& scene() const { return *versions_.back(); }
+
+  ThreadPool pool_{1};
+  SceneParams params_;
+  std::optional<SceneBuilder> dut_;
+  std::vector<ScenePtr> versions_;
+  std::size_t created_ = 0, dropped_ = 0, reidentified_ = 0;
+};
+
+TEST_F(OtherIds, NameAnObjectThatIsKnownAgain) {
+  LoseAndSeeAgain();
+  ASSERT_EQ(scene().objects.size(), 1u);
+  const MovingObject& object = *scene().objects[0];
+  EXPECT_EQ(object.id, 5);
+  EXPECT_THAT(object.also, ElementsAre(9));
+  EXPECT_EQ(scene().FindObject(9), &object);
+  EXPECT_EQ(scene().FindObject(5), &object);
+  EXPECT_EQ(scene().FindObject(6), nullptr);
+  EXPECT_EQ(reidentified_, 1u);
+  EXPECT_EQ(dropped_, 0u);
+  EXPECT_EQ(object.first_seen, At(0));
+  EXPECT_EQ(object.frames_seen, 30);
+}
+
+TEST_F(OtherIds, CarryTheObjectOnAsItsFirstDoes) {
+  LoseAndSeeAgain();
+  SeeFor(9, 4.5, 5);
+  Frame frame = FrameAt(5);
+  See(frame, 5, 5, false);
+  Apply(frame);
+  ASSERT_EQ(scene().objects.size(), 1u);
+  const MovingObject& object = *scene().objects[0];
+  EXPECT_EQ(object.t_k(), At(5));
+  EXPECT_EQ(object.last_seen, At(5));
+  EXPECT_EQ(created_, 2u);
+  // One surface, not two.
+  const Eigen::Vector3d size_m = object.observed_box_O.max - object.observed_box_O.min;
+  EXPECT_LT(size_m.x(), 4.4);
+  EXPECT_LT(size_m.y(), 2.2);
+}
+
+TEST_F(OtherIds, AreNoneUnlessAskedFor) {
+  params_.reidentify = false;
+  SetUp();
+  LoseAndSeeAgain();
+  EXPECT_EQ(scene().objects.size(), 2u);
+  EXPECT_NE(scene().FindObject(9), scene().FindObject(5));
+}
+
+TEST_F(OtherIds, PartWhenBothAreSeenAtOnce) {
+  LoseAndSeeAgain();
+  Frame frame = FrameAt(4.5);
+  See(frame, 5, 4.5, false, 30);
+  See(frame, 9, 4.5, false);
+  Apply(frame);
+  ASSERT_EQ(scene().objects.size(), 2u);
+  EXPECT_EQ(dropped_, 1u);
+  EXPECT_EQ(created_, 4u);
+  for (const ObjectId id : {5, 9}) {
+    const MovingObject& object = *scene().FindObject(id);
+    EXPECT_EQ(object.id, id);
+    EXPECT_TRUE(object.also.empty());
+    EXPECT_EQ(object.first_seen, At(4.5));
+  }
+  // They stay two.
+  for (double t = 4.6; t < 5.5; t += kPeriod_s) {
+    frame = FrameAt(t);
+    See(frame, 5, t, false, 30);
+    See(frame, 9, t, false);
+    Apply(frame);
+  }
+  EXPECT_EQ(scene().objects.size(), 2u);
+}
+
+// A motion of the other id alone, beside points, is of a track that the source has given up.
+TEST_F(OtherIds, FollowTheOneThatIsSeen) {
+  LoseAndSeeAgain();
+  Frame frame = FrameAt(4.5);
+  frame.motions.push_back({5, Pose::Translation(3, 3, 0), At(4.4)});
+  See(frame, 9, 4.5, false);
+  Apply(frame);
+  ASSERT_EQ(scene().objects.size(), 1u);
+  const Eigen::Vector3d moved =
+      scene().objects[0]->history.back().T_W_O.translation -
+      versions_[versions_.size() - 2]->objects[0]->history.back().T_W_O.translation;
+  EXPECT_LT((moved - Eigen::Vector3d(0.8, 0, 0)).norm(), 1e-6);
+}
+
+TEST_F(OtherIds, AreNotTakenFromOneOfTwoThatItCouldBe) {
+  for (double t = 0; t < 2; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    See(frame, 5, t, t == 0);
+    See(frame, 6, t, t == 0, 0.6);
+    Apply(frame);
+  }
+  for (double t = 3.5; t < 4.5; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    See(frame, 9, t, t == 3.5, 0.3);
+    Apply(frame);
+  }
+  EXPECT_EQ(scene().objects.size(), 3u);
+  EXPECT_EQ(reidentified_, 0u);
+}
+
+// A source that tells where an unseen object is has not lost it.
+TEST_F(OtherIds, AreNotTakenWhileTheSourceFollowsTheFirst) {
+  SeeFor(5, 0, 2);
+  for (double t = 2; t < 4.5; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    frame.motions.push_back({5, Pose::Translation(0.8, 0, 0), At(t - kPeriod_s)});
+    if (t > 3.45) See(frame, 9, t, t < 3.55);
+    Apply(frame);
+  }
+  EXPECT_EQ(scene().objects.size(), 2u);
+}
+
+TEST_F(OtherIds, TravelWithDifferences) {
+  LoseAndSeeAgain();
+  Frame frame = FrameAt(4.5);
+  See(frame, 5, 4.5, false, 30);
+  See(frame, 9, 4.5, false);
+  Apply(frame);
+  for (std::size_t a = 0; a < versions_.size(); ++a) {
+    for (const std::size_t b : {a + 1, versions_.size() - 2, versions_.size() - 1}) {
+      if (b <= a || b >= versions_.size()) continue;
+      const auto applied =
+          clearway::Apply(versions_[a].get(), Diff(versions_[a].get(), *versions_[b]));
+      ASSERT_TRUE(applied.ok()) << applied.status();
+      EXPECT_TRUE(SameContent(*applied, *versions_[b])) << a << " " << b;
+      EXPECT_EQ(applied->Hash(), versions_[b]->Hash());
+    }
+  }
+}
+
+TEST_F(OtherIds, AreRefusedToGivenObjectsAndTakenForFutures) {
+  LoseAndSeeAgain();
+  GivenObject given;
+  given.id = 9;
+  given.shape = Box{{1, 1, 1}};
+  EXPECT_EQ(dut_->AddObject(given).code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_TRUE(dut_->SetFuture(9, {{At(6), Driving(6)}}).ok());
+  EXPECT_EQ(dut_->Publish()->FindObject(5)->future.size(), 1u);
+}
+
+TEST_F(OtherIds, OfADifferenceAreIdsOfObjects) {
+  LoseAndSeeAgain();
+  SceneDelta delta = Diff(nullptr, scene());
+  delta.objects[0].also = {-1};
+  const auto applied = clearway::Apply(nullptr, delta);
+  EXPECT_EQ(applied.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(applied.status().message()),
+              testing::HasSubstr("objects[id=5].other_ids"));
+}
+
+}  // namespace
+}  // namespace clearway
