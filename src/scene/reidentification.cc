@@ -145,8 +145,8 @@ MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_
   for (const StampedPose& pose : young.history) {
     if (pose.stamp > lost.t_k()) lost.history.push_back({pose.stamp, pose.T_W_O * T_Y_L});
   }
-  std::erase_if(lost.history,
-                [&](const StampedPose& p) { return p.stamp < stamp - params.history; });
+  const Time oldest = lost.t_k() - params.history;
+  std::erase_if(lost.history, [&](const StampedPose& p) { return p.stamp < oldest; });
   if (young.velocity_O) {
     // The same screw, as L sees it.
     const Pose ahead = T_L_Y * Exp(*young.velocity_O) * T_Y_L;

@@ -98,6 +98,16 @@ TEST_F(Reidentification, NothingIsKnownAgainByPosesThatAreFarOff) {
   EXPECT_FALSE(SeenAgain(lost, young, params_));
 }
 
+TEST_F(Reidentification, JoinedLongAfterItWasSeenItHasItsLastPose) {
+  params_.history = std::chrono::milliseconds(250);
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
+  const MovingObject dut = Joined(lost, young, T_Y_L, At(5), params_, pool_);
+  ASSERT_FALSE(dut.history.empty());
+  EXPECT_EQ(dut.t_k(), young.t_k());
+}
+
 TEST_F(Reidentification, JoinedItHasBothViewsAndBothTracks) {
   const MovingObject lost = Seen(5, 0, 2, Half(kCar, -1));
   const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
