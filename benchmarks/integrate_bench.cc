@@ -86,6 +86,8 @@ SceneParams RobustParamsFor(const Input& input) {
   params.rest_distance_m = 0.6;
   params.object_pose_error_m = 0.1;
   params.object_pose_error_rad = 0.02;
+  params.reidentify = true;
+  params.filter_labels = true;
   return params;
 }
 

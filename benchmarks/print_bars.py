@@ -75,6 +75,8 @@ AT_MOST = {
     "reconstruction_accuracy_voxels": 0.5,
     "reconstruction_van_size_off_m": 0.2,
     "reconstruction_residual_voxels": 0,
+    "reconstruction_mislabelled_accuracy_x": 1.2,
+    "reconstruction_residual_voxels_mislabelled": 0,
     "reidentified_wrong": 0,
     "reidentified_wrong_table1": 0,
     "reidentified_wrong_drive": 0,

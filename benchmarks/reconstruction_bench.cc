@@ -1,6 +1,6 @@
 // How well maps fit the simulator's street: exact SLAM, by rays that spare what they graze and by
-// OctoMap's rule; and with the errors of the paper's Table I, with views where the source says and
-// where they fit the objects' maps.
+// OctoMap's rule; with the errors of the paper's Table I, with views where the source says and
+// where they fit the objects' maps; and with labels filtered, right ones and some of them wrong.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "clearway/report/surface_judge.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/sim/scenarios.h"
+#include "clearway/sim/wrong_labels.h"
 #include "summary.h"
 
 namespace clearway::bench {
@@ -62,12 +63,15 @@ struct Setup {
   ScenarioOptions options;
   double grazing_m = 4;
   bool registered = false;  // views, to their objects' maps
+  bool filter_labels = false;
+  double wrong_labels = 0;  // share of all
 };
 
 SceneParams ParamsOf(const Setup& setup, const Simulation& simulation) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = simulation.spec().resolution_m;
   params.rays = {.max_range_m = 50, .grazing_m = setup.grazing_m};
+  params.filter_labels = setup.filter_labels;
   if (setup.registered) {
     params.object_pose_error_m = setup.options.noise.object.mean_translation_m;
     params.object_pose_error_rad = setup.options.noise.object.mean_rotation_rad;
@@ -83,7 +87,8 @@ Fits Reconstruct(const Setup& setup, const std::string& suffix, benchmark::State
   SurfaceJudge judge(simulation, {std::chrono::seconds(1)});
   for (std::size_t k = 0; k < simulation.frame_count(); ++k) {
     const Frame frame = simulation.MakeFrame(k);
-    if (!builder.Apply(frame).ok()) std::abort();
+    const Frame seen = WithWrongLabels(frame, setup.wrong_labels, setup.options.seed);
+    if (!builder.Apply(seen).ok()) std::abort();
     judge.Add(k, frame, *builder.Publish());
   }
   CountObjects(judge.Fits(), suffix, state);
@@ -104,6 +109,19 @@ void WithNoise(benchmark::State& state, const ScenarioOptions& noisy) {
   }
 }
 
+// With right labels, and with some of them wrong.
+void WithFilter(benchmark::State& state, const ScenarioOptions& exact) {
+  for (auto _ : state) {
+    const Setup right{.options = exact, .filter_labels = true};
+    const Fits fits = Reconstruct(right, "_filtered", state);
+    Setup wrong = right;
+    wrong.wrong_labels = 0.05;
+    const Fits of_wrong = Reconstruct(wrong, "_mislabelled", state);
+    state.counters["reconstruction_mislabelled_accuracy_x"] =
+        AccuracyVoxels(of_wrong) / AccuracyVoxels(fits);
+  }
+}
+
 void Register(const Effort& effort) {
   Effort once = effort;
   once.repetitions = 1;
@@ -117,6 +135,7 @@ void Register(const Effort& effort) {
   Add("reconstruction_octomap", once, [=](auto& state) {
     for (auto _ : state) Reconstruct({.options = exact, .grazing_m = 0}, "_octomap", state);
   });
+  Add("reconstruction_filtered", once, [=](auto& state) { WithFilter(state, exact); });
   Add("reconstruction_table1", once, [=](auto& state) { WithNoise(state, noisy); });
 }
 

@@ -173,6 +173,8 @@ std::vector<Setting> SceneSettings() {
                        "the same of their angles"),
       CLEARWAY_SETTING("scene.reidentify", scene.reidentify,
                        "whether lost objects are known again under new ids"),
+      CLEARWAY_SETTING("scene.filter_labels", scene.filter_labels,
+                       "whether labels that the points around contradict are left out"),
       CLEARWAY_SETTING(
           "scene.keep_distance_m", scene.keep_distance_m,
           "what of the static map lies farther from the sensor is forgotten; 0: nothing"),

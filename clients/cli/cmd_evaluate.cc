@@ -20,6 +20,7 @@ namespace {
 
 constexpr char kExamples[] =
     "  clearway evaluate sim:street --noise table1\n"
+    "  clearway evaluate sim:street --grazing 4 --wrong-labels 0.05 --filter-labels\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
 
@@ -33,7 +34,7 @@ struct Flags {
   double max_range_m = 50;
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
-  bool reidentify = false;
+  bool reidentify = false, filter_labels = false, clear_objects = false;
   double wrong_labels = 0;
   std::optional<double> forget_s;
   bool json = false;
@@ -50,6 +51,8 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
   params.reidentify = flags.reidentify;
+  params.filter_labels = flags.filter_labels;
+  params.clear_objects_by_rays = flags.clear_objects;
   return params;
 }
 
@@ -159,6 +162,10 @@ void AddEvaluate(Cli& cli) {
       ->check(Between(0, 1))
       ->capture_default_str();
   command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
+  command->add_flag("--filter-labels", flags->filter_labels,
+                    "As of clearway-server --scene-filter-labels");
+  command->add_flag("--clear-objects", flags->clear_objects,
+                    "As of clearway-server --scene-clear-objects-by-rays");
   command
       ->add_option("--forget", flags->forget_s,
                    "Give objects that were out of sight for so many seconds\na new id")

@@ -68,6 +68,7 @@ Json ParamsJson(const SceneParams& p) {
           {"object_pose_error_m", p.object_pose_error_m},
           {"object_pose_error_rad", p.object_pose_error_rad},
           {"reidentify", p.reidentify},
+          {"filter_labels", p.filter_labels},
           {"keep_distance_m", p.keep_distance_m},
           {"bounds_world", ToJson(p.bounds_W)},
           {"keep_out_boxes", p.keep_out_W.size()},

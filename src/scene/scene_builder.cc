@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "scene/dropped_object.h"
 #include "scene/given_object.h"
+#include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
 #include "scene/other_ids.h"
@@ -104,6 +105,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
 
   FrameReport report;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  if (scene_.params.filter_labels) {
+    report.points_doubted = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
+  }
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.static_map_W;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;

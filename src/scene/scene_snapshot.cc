@@ -94,6 +94,7 @@ void ContentHasher::Add(const SceneParams& params) {
   Add(params.object_pose_error_m);
   Add(params.object_pose_error_rad);
   Add(std::int64_t{params.reidentify});
+  Add(std::int64_t{params.filter_labels});
   Add(params.keep_distance_m);
   Add(params.bounds_W);
   Add(params.keep_out_W);

@@ -127,6 +127,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_objects_dropped(ack.report.objects_dropped);
   report->set_points_given(ack.report.points_given);
   report->set_objects_reidentified(ack.report.objects_reidentified);
+  report->set_points_doubted(ack.report.points_doubted);
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -145,6 +146,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.objects_dropped = report.objects_dropped();
   ack.report.points_given = report.points_given();
   ack.report.objects_reidentified = report.objects_reidentified();
+  ack.report.points_doubted = report.points_doubted();
   return ack;
 }
 

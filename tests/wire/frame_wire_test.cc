@@ -185,7 +185,7 @@ TEST(FrameWire, AcksComeBack) {
   ack.version = 9;
   ack.stamp = TimeFromNanoseconds(77);
   ack.reached = AckLevel::kApplied;
-  ack.report = {1, 2, 3, 4, 5, 6, 7, 8, 10, 9};
+  ack.report = {1, 2, 3, 4, 5, 6, 7, 8, 10, 9, 11};
   ack.repeated_answer = true;
   v1::PushFrameResponse proto;
   Write(ack, &proto);
@@ -204,6 +204,7 @@ TEST(FrameWire, AcksComeBack) {
   EXPECT_EQ(dut.report.objects_dropped, 8u);
   EXPECT_EQ(dut.report.points_given, 9u);
   EXPECT_EQ(dut.report.objects_reidentified, 10u);
+  EXPECT_EQ(dut.report.points_doubted, 11u);
 }
 
 TEST(FrameWire, LevelsComeBackAndUnknownOnesDoNot) {

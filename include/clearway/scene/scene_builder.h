@@ -29,6 +29,8 @@ struct FrameReport {
   std::size_t objects_reidentified = 0;
   // Of those used, the ones of given objects: their rays clear, and they hit nothing.
   std::size_t points_given = 0;
+  // Of those used, the ones whose label is doubted (SceneParams::filter_labels): likewise.
+  std::size_t points_doubted = 0;
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at

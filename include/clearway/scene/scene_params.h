@@ -49,6 +49,10 @@ struct SceneParams {
   // Whether an object that was lost and is seen again under another id is known again, by where it
   // is predicted and by its shape. It then goes on under its first id, and the other names it too.
   bool reidentify = false;
+  // Whether points are doubted whose label those around them in the scan do not bear out: outvoted
+  // ones, an object's few that lie apart from the rest of it, and static ones next to an object's
+  // where it is predicted to be. Their rays clear free space, and they hit nothing.
+  bool filter_labels = false;
 
   // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
   // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of

@@ -42,6 +42,7 @@ int main() {
     params.rest_distance_m = variant ? 0.5 : 0;
     params.object_pose_error_m = variant ? 0.1 : 0;
     params.reidentify = variant;
+    params.filter_labels = variant;
     params.keep_distance_m = variant ? 3 : 0;
     ThreadPool pool(2);
     SceneBuilder builder(params, {}, pool);

@@ -1,0 +1,46 @@
+// The points of a cloud by the direction in which they are seen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/labelled_cloud.h"
+
+namespace clearway {
+
+// Which points of a cloud are neighbours as its sensor sees them: within about a degree, and as far
+// away up to 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points
+// within about a degree of an object's, but none that has gone through to the end of its ray's
+// range. They have places from 0 to size() - 1, by direction. Const methods may run on any number
+// of threads.
+class DirectionGrid {
+ public:
+  explicit DirectionGrid(const LabelledCloud& cloud);
+
+  std::size_t size() const { return indices_.size(); }
+  std::uint32_t IndexOf(std::size_t place) const { return indices_[place]; }  // into the cloud
+
+  // Of a point's neighbours, those that have its label and those that have another. If enough of
+  // them are within 1.5 % of the range and 0.1 m, these alone.
+  struct Votes {
+    std::uint32_t fellows = 0, others = 0;
+  };
+  Votes VotesOn(std::size_t place) const;
+
+  // Whether VotesOn's `fellows` can be more than 0: faster.
+  bool HasFellow(std::size_t place) const;
+
+  // At least VotesOn's `others` of a static point: faster.
+  std::uint32_t ObjectPointsAbout(std::size_t place) const { return objects_about_[cells_[place]]; }
+
+ private:
+  std::vector<std::uint32_t> begin_;          // of a cell's points; one more at the end
+  std::vector<std::uint16_t> objects_about_;  // of a cell: points of objects within a cell of it
+
+  // By place.
+  std::vector<std::uint32_t> indices_, cells_;
+  std::vector<ObjectId> labels_;
+  std::vector<float> x_m_, y_m_, z_m_, ranges_m_;  // from the sensor
+};
+
+}  // namespace clearway

@@ -1,0 +1,142 @@
+#include "scene/label_filter.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "absl/container/flat_hash_map.h"
+#include "absl/container/flat_hash_set.h"
+#include "scene/direction_grid.h"
+
+namespace clearway {
+namespace {
+
+// As many points of other labels as it takes to outvote one.
+constexpr std::uint32_t kFewestOthers = 3;
+
+bool IsOutvoted(const DirectionGrid::Votes& votes) {
+  return votes.others >= kFewestOthers && votes.others >= 2 * votes.fellows;
+}
+
+// The voxels that the objects of a scene are predicted to fill.
+class PredictedVoxels {
+ public:
+  PredictedVoxels(const SceneObjects& objects, Time stamp, Duration horizon) {
+    constexpr std::int64_t kFewestFrames = 3;  // before which nobody knows how it moves
+    for (const auto& object : objects) {
+      if (object->frames_seen < kFewestFrames || stamp - object->t_k() > horizon) continue;
+      const Pose T_W_O = PredictPose(*object, stamp, horizon).T_W_O;
+      placed_.push_back(
+          {Transformed(T_W_O, object->observed_box_O), Inverse(T_W_O), &object->map_O});
+    }
+  }
+
+  bool Contain(const Eigen::Vector3d& p_W) const {
+    return std::ranges::any_of(placed_, [&](const Placed& object) {
+      if (!object.box_W.Contains(p_W)) return false;
+      const VoxelMap& map_O = *object.map_O;
+      return map_O.State(map_O.grid().KeyOf(object.T_O_W * p_W)) == VoxelState::kOccupied;
+    });
+  }
+
+ private:
+  struct Placed {
+    Aabb box_W;
+    Pose T_O_W;
+    const VoxelMap* map_O;
+  };
+  std::vector<Placed> placed_;
+};
+
+// Whether a point with an object's label has too few points of the object around it.
+bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
+  constexpr std::uint32_t kFewestFellows = 2;
+  const DirectionGrid::Votes votes = directions.VotesOn(place);
+  return IsOutvoted(votes) || votes.fellows < kFewestFellows;
+}
+
+// Whether a static point is rather an object's. Static ones are many, and far from each other at a
+// distance, so that it takes an object's point nearby.
+bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
+                       const DirectionGrid& directions, const PredictedVoxels& objects) {
+  const std::uint32_t most_others = directions.ObjectPointsAbout(place);
+  if (most_others == 0) return false;
+  const bool is_likely = objects.Contain(p_W.cast<double>()) || !directions.HasFellow(place);
+  if (!is_likely && most_others < kFewestOthers) return false;
+  const DirectionGrid::Votes votes = directions.VotesOn(place);
+  return IsOutvoted(votes) || (is_likely && votes.others > 0);
+}
+
+// How many points of an object lie in each cube of a coarse grid.
+using PointCounts = absl::flat_hash_map<VoxelKey, std::size_t>;
+
+struct Cluster {
+  std::vector<VoxelKey> cubes;
+  std::size_t points = 0;
+};
+
+// Takes the cubes that hang together with one of them.
+Cluster TakeCluster(VoxelKey start, PointCounts& counts) {
+  Cluster cluster;
+  const auto take = [&](VoxelKey key) {
+    const auto entry = counts.find(key);
+    if (entry == counts.end()) return;
+    cluster.cubes.push_back(key);
+    cluster.points += entry->second;
+    counts.erase(entry);
+  };
+  take(start);
+  for (std::size_t next = 0; next < cluster.cubes.size(); ++next) {
+    const VoxelKey key = cluster.cubes[next];
+    for (int i = 0; i < 27; ++i) {
+      take({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
+    }
+  }
+  return cluster;
+}
+
+// Leaves out the points of an object that lie apart from the others and are too few to be a part of
+// it. Returns how many.
+std::size_t LeaveOutStray(const LabelledCloud& cloud, const VoxelGrid& cubes,
+                          std::vector<std::uint32_t>& points) {
+  constexpr std::size_t kFewest = 5;
+  const auto cube_of = [&](std::uint32_t i) { return cubes.KeyOf(cloud.ends_W[i].cast<double>()); };
+  PointCounts counts;
+  for (const std::uint32_t i : points) ++counts[cube_of(i)];
+  absl::flat_hash_set<VoxelKey> kept;
+  while (!counts.empty()) {
+    const Cluster cluster = TakeCluster(counts.begin()->first, counts);
+    if (cluster.points >= kFewest) kept.insert(cluster.cubes.begin(), cluster.cubes.end());
+  }
+  return std::erase_if(points, [&](std::uint32_t i) { return !kept.contains(cube_of(i)); });
+}
+
+}  // namespace
+
+std::size_t LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const SceneParams& params,
+                             LabelledCloud& cloud) {
+  constexpr double kVoxelsAcross = 16;  // a cube
+  if (cloud.object_hits.empty()) return 0;
+  const DirectionGrid directions(cloud);
+  const PredictedVoxels predicted(objects, stamp, params.horizon);
+  std::size_t doubted = 0;
+  std::vector<char> is_doubted(cloud.ends_W.size());
+  for (std::size_t place = 0; place < directions.size(); ++place) {
+    const std::uint32_t i = directions.IndexOf(place);
+    RayEnd& kind = cloud.kinds[i];
+    if (kind == RayEnd::kBlock) {
+      is_doubted[i] = IsDoubtedOfObject(place, directions);
+    } else if (IsDoubtedOfStatic(place, cloud.ends_W[i], directions, predicted)) {
+      kind = RayEnd::kBlock;
+      ++doubted;
+    }
+  }
+  const VoxelGrid cubes(kVoxelsAcross * params.resolution_m);
+  for (auto& [id, points] : cloud.object_hits) {
+    doubted += std::erase_if(points, [&](std::uint32_t i) { return is_doubted[i]; });
+    doubted += LeaveOutStray(cloud, cubes, points);
+  }
+  std::erase_if(cloud.object_hits, [](const auto& entry) { return entry.second.empty(); });
+  return doubted;
+}
+
+}  // namespace clearway

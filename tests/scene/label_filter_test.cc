@@ -1,0 +1,246 @@
+#include "scene/label_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "clearway/scene/scene_builder.h"
+#include "scene/direction_grid.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddPoint;
+using testing_support::FrameAt;
+using testing_support::Random;
+
+constexpr ObjectId kCar = 1, kPerson = 2, kFarCar = 3;
+
+struct Thing {
+  ObjectId label;
+  Aabb box;
+};
+
+// A street before a wall: ground, a car with a person next to it, and a car far away.
+const std::vector<Thing>& Street() {
+  static const std::vector<Thing> street = {
+      {kStaticLabel, {{-1, -40, -2}, {60, 40, -1.7}}},
+      {kStaticLabel, {{55, -40, -2}, {56, 40, 4}}},
+      {kStaticLabel, {{12, -5, -1.7}, {12.2, -4.8, 3}}},
+      {kCar, {{8, -1, -1.6}, {12, 1, -0.2}}},
+      {kPerson, {{7.5, 1.3, -1.6}, {7.9, 1.8, 0.1}}},
+      {kFarCar, {{40, 6, -1.6}, {44, 8, -0.2}}},
+  };
+  return street;
+}
+
+// What a LiDAR at the origin sees, half a degree from ray to ray.
+Frame Scan(double seconds, const std::vector<Thing>& things) {
+  Frame frame = FrameAt(seconds);
+  constexpr double kStep_rad = 0.5 / 180 * std::numbers::pi;
+  for (int row = -40; row <= 4; ++row) {
+    for (int column = -70; column <= 70; ++column) {
+      const double up = row * kStep_rad, left = column * kStep_rad;
+      const Eigen::Vector3d d(std::cos(up) * std::cos(left), std::cos(up) * std::sin(left),
+                              std::sin(up));
+      double range_m = 58;
+      ObjectId label = kIgnoreLabel;
+      for (const Thing& thing : things) {
+        const LinePart part = Clip(thing.box, Eigen::Vector3d::Zero(), d, {0, range_m});
+        if (part.begin >= part.end) continue;
+        range_m = part.begin;
+        label = thing.label;
+      }
+      if (label != kIgnoreLabel) AddPoint(frame, label, range_m * d);
+    }
+  }
+  return frame;
+}
+
+class LabelFilter : public testing::Test {
+ protected:
+  LabelFilter() {
+    params_.rays.max_range_m = 60;
+    params_.filter_labels = true;
+  }
+  struct Outcome {
+    std::size_t doubted = 0;
+    std::set<std::size_t> indices;  // of the frame's points
+    LabelledCloud cloud;
+  };
+  Outcome Filtered(const Frame& frame, const SceneObjects& objects = {}) {
+    FrameReport report;
+    const LabelledCloud before = PlaceCloud(frame, params_, report);
+    Outcome outcome;
+    outcome.cloud = before;
+    outcome.doubted = LeaveOutDoubtful(objects, frame.stamp, params_, outcome.cloud);
+    for (const auto& [id, points] : before.object_hits) {
+      const auto& left = outcome.cloud.object_hits[id];
+      const std::set<std::uint32_t> kept(left.begin(), left.end());
+      for (const std::uint32_t i : points) {
+        if (!kept.contains(i)) outcome.indices.insert(i);
+      }
+    }
+    for (std::size_t i = 0; i < before.kinds.size(); ++i) {
+      if (outcome.cloud.kinds[i] != before.kinds[i]) outcome.indices.insert(i);
+    }
+    EXPECT_EQ(outcome.doubted, outcome.indices.size());
+    return outcome;
+  }
+
+  ThreadPool pool_{1};
+  SceneParams params_;
+};
+
+std::size_t PointsOf(ObjectId id, const Frame& frame) {
+  return static_cast<std::size_t>(std::ranges::count(frame.labels, id));
+}
+
+TEST_F(LabelFilter, BelievesLabelsThatAreRight) {
+  const Frame frame = Scan(0, Street());
+  ASSERT_GT(PointsOf(kCar, frame), 400u);
+  ASSERT_GT(PointsOf(kPerson, frame), 80u);
+  ASSERT_GT(PointsOf(kFarCar, frame), 8u);
+  EXPECT_EQ(Filtered(frame).doubted, 0u);
+}
+
+// One of twenty gets another label, of all kinds.
+TEST_F(LabelFilter, DoubtsWrongOnesAndThemAlone) {
+  const Frame truth = Scan(0, Street());
+  Random random(1);
+  std::size_t wrong = 0, missed = 0, good = 0;
+  for (int round = 0; round < 20; ++round) {
+    Frame frame = truth;
+    std::set<std::size_t> changed;
+    for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+      if (random.Integer(0, 19) != 0) continue;
+      frame.labels[i] = (frame.labels[i] + random.Integer(1, 3)) % 4;
+      changed.insert(i);
+    }
+    const Outcome outcome = Filtered(frame);
+    for (const std::size_t i : changed) missed += !outcome.indices.contains(i);
+    for (const std::size_t i : outcome.indices) good += !changed.contains(i);
+    wrong += changed.size();
+  }
+  EXPECT_GT(wrong, 4'000u);
+  EXPECT_LT(missed, wrong / 100);
+  EXPECT_LT(good, 20 * truth.labels.size() / 400);
+}
+
+// Their rays clear what is before them, and they hit nothing.
+TEST_F(LabelFilter, DoubtedPointsBlockTheirRays) {
+  Frame frame = Scan(0, Street());
+  const auto on_car =
+      static_cast<std::size_t>(std::ranges::find_if(frame.points_S,
+                                                    [](const Eigen::Vector3f& p) {
+                                                      return std::abs(p.x() - 8) < 1e-3 &&
+                                                             std::abs(p.y()) < 0.1 &&
+                                                             std::abs(p.z() + 1) < 0.1;
+                                                    }) -
+                               frame.points_S.begin());
+  ASSERT_EQ(frame.labels.at(on_car), kCar);
+  frame.labels[on_car] = kStaticLabel;
+  EXPECT_EQ(Filtered(frame).indices, std::set<std::size_t>{on_car});
+
+  const auto static_state = [&](bool filter_labels) {
+    params_.filter_labels = filter_labels;
+    SceneBuilder builder(params_, {}, pool_);
+    EXPECT_EQ(builder.Apply(frame)->points_doubted, filter_labels ? 1u : 0u);
+    const VoxelMap& map_W = builder.Publish()->static_map_W;
+    const Eigen::Vector3d p_W = frame.points_S[on_car].cast<double>();
+    EXPECT_EQ(map_W.State(map_W.grid().KeyOf(0.9 * p_W)), VoxelState::kFree);
+    return map_W.State(map_W.grid().KeyOf(p_W));
+  };
+  EXPECT_EQ(static_state(false), VoxelState::kOccupied);
+  EXPECT_NE(static_state(true), VoxelState::kOccupied);
+}
+
+// A few points next to each other with a new id before nothing else: not enough to be an object.
+TEST_F(LabelFilter, ObjectsDoNotBeginFromStrayPoints) {
+  const auto created = [&](int points) {
+    Frame frame = FrameAt(0);
+    for (int i = 0; i < points; ++i) AddPoint(frame, 9, {20, 0.15 * (i % 3), 0.15 * (i / 3)});
+    SceneBuilder builder(params_, {}, pool_);
+    return builder.Apply(frame)->objects_created;
+  };
+  EXPECT_EQ(created(1), 0u);
+  EXPECT_EQ(created(4), 0u);
+  EXPECT_EQ(created(5), 1u);
+}
+
+// A part of the car that is called static in one scan, too large to be outvoted.
+TEST_F(LabelFilter, WhatIsKnownOfAnObjectBearsItsPointsOut) {
+  SceneBuilder builder(params_, {}, pool_);
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE(builder.Apply(Scan(0.1 * k, Street())).ok());
+  Frame frame = Scan(0.3, Street());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+    if (frame.labels[i] != kCar || frame.points_S[i].y() > -0.3f) continue;
+    frame.labels[i] = kStaticLabel;
+    ++wrong;
+  }
+  const std::size_t at_edge = Filtered(frame).doubted;
+  EXPECT_LT(at_edge, wrong / 4);
+  EXPECT_GT(Filtered(frame, builder.Publish()->objects).doubted, at_edge + 10);
+}
+
+TEST_F(LabelFilter, PointsOfGivenObjectsAreCountedOnce) {
+  Frame frame = Scan(0, Street());
+  frame.labels[0] = kCar;  // of the ground before the sensor
+  SceneBuilder builder(params_, {}, pool_);
+  const Aabb& box = Street()[3].box;
+  GivenObject given;
+  given.id = kCar;
+  given.shape = Box{box.Size()};
+  given.pose = {frame.stamp, {Eigen::Quaterniond::Identity(), box.Center()}};
+  ASSERT_TRUE(builder.AddObject(given).ok());
+  const FrameReport report = *builder.Apply(frame);
+  EXPECT_EQ(report.points_doubted, 1u);
+  EXPECT_EQ(report.points_given, PointsOf(kCar, frame) - 1);
+}
+
+TEST_F(LabelFilter, TakesAnOriginForEachPoint) {
+  Frame frame = Scan(0, Street());
+  frame.labels[0] = kCar;
+  const std::set<std::size_t> expected = Filtered(frame).indices;
+  frame.origins_S.assign(frame.points_S.size(), Eigen::Vector3f::Zero());
+  EXPECT_EQ(Filtered(frame).indices, expected);
+}
+
+TEST_F(LabelFilter, TakesFramesOfEveryKind) {
+  testing_support::RandomFrames frames(3);
+  SceneBuilder builder(params_, {}, pool_);
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(builder.Apply(frames.Next()).ok());
+  Frame at_sensor = FrameAt(1'000);
+  for (int i = 0; i < 10; ++i) AddPoint(at_sensor, i % 2, {0, 0, 0});
+  EXPECT_TRUE(builder.Apply(at_sensor).ok());
+}
+
+// What is asked for speed alone says nothing else than the votes do.
+TEST_F(LabelFilter, QuickAnswersAgreeWithTheVotes) {
+  Frame frame = Scan(0, Street());
+  Random random(2);
+  for (ObjectId& label : frame.labels) {
+    if (random.Integer(0, 9) == 0) label = random.Integer(0, 3);
+  }
+  FrameReport report;
+  const LabelledCloud cloud = PlaceCloud(frame, params_, report);
+  const DirectionGrid dut(cloud);
+  std::size_t alone = 0;
+  for (std::size_t k = 0; k < dut.size(); ++k) {
+    const DirectionGrid::Votes votes = dut.VotesOn(k);
+    EXPECT_TRUE(votes.fellows == 0 || dut.HasFellow(k));
+    alone += !dut.HasFellow(k);
+    const bool is_static = cloud.labels[dut.IndexOf(k)] == kStaticLabel;
+    EXPECT_TRUE(!is_static || votes.others <= dut.ObjectPointsAbout(k));
+  }
+  EXPECT_GT(alone, 10u);
+}
+
+}  // namespace
+}  // namespace clearway
