@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "client/call.h"
@@ -30,9 +31,7 @@ class PushStream {
     (void)stream_->Finish();  // abandoned: the caller did not ask how it went
   }
 
-  absl::Status Send(const Frame& frame) {
-    v1::PushFramesRequest request;
-    Write(frame, request.mutable_frame());
+  absl::Status Send(v1::PushFramesRequest request) {
     request.set_wait_for(ToProto(wait_for_));
     {
       std::unique_lock lock(mutex_);
@@ -92,6 +91,21 @@ class PushStream {
 }  // namespace
 
 struct FrameSender::Impl {
+  absl::StatusOr<PushAck> Push(const v1::PushFrameRequest& request) const {
+    auto response = Call(connection->options(), *connection->impl().ingest,
+                         &v1::IngestService::Stub::PushFrame, request);
+    if (!response.ok()) return response.status();
+    return ReadPushAck(*response);
+  }
+  // Sends the frame that `fill` makes.
+  template <class Fill>
+  absl::Status Send(Fill&& fill) const {
+    if (stream == nullptr) return absl::FailedPreconditionError("no stream is open");
+    v1::PushFramesRequest request;
+    fill(request.mutable_frame());
+    return stream->Send(std::move(request));
+  }
+
   std::shared_ptr<Connection> connection;
   std::unique_ptr<PushStream> stream;
 };
@@ -106,10 +120,15 @@ absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, AckLevel wait_for)
   v1::PushFrameRequest request;
   Write(frame, request.mutable_frame());
   request.set_wait_for(ToProto(wait_for));
-  auto response = Call(impl_->connection->options(), *impl_->connection->impl().ingest,
-                       &v1::IngestService::Stub::PushFrame, request);
-  if (!response.ok()) return response.status();
-  return ReadPushAck(*response);
+  return impl_->Push(request);
+}
+
+absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, const DepthImage& image,
+                                          AckLevel wait_for) {
+  v1::PushFrameRequest request;
+  Write(frame, image, request.mutable_frame());
+  request.set_wait_for(ToProto(wait_for));
+  return impl_->Push(request);
 }
 
 absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for) {
@@ -122,8 +141,11 @@ absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for) {
 }
 
 absl::Status FrameSender::Send(const Frame& frame) {
-  if (impl_->stream == nullptr) return absl::FailedPreconditionError("no stream is open");
-  return impl_->stream->Send(frame);
+  return impl_->Send([&](v1::Frame* proto) { Write(frame, proto); });
+}
+
+absl::Status FrameSender::Send(const Frame& frame, const DepthImage& image) {
+  return impl_->Send([&](v1::Frame* proto) { Write(frame, image, proto); });
 }
 
 absl::Status FrameSender::CloseStream() {

@@ -1,6 +1,9 @@
 #include "wire/frame_wire.h"
 
+#include <utility>
+
 #include "absl/strings/str_cat.h"
+#include "wire/depth_wire.h"
 #include "wire/scene_wire.h"
 #include "wire/status.h"
 
@@ -45,6 +48,31 @@ void ReadMotions(const v1::Frame& proto, FieldReader& read, Frame& frame) {
   }
 }
 
+// The points themselves, or the depth image that they are.
+void ReadPoints(const v1::Frame& proto, const FrameLimits& limits, FieldReader& read,
+                Frame& frame) {
+  frame.points_S = read.Triples<float>("points_m", proto.points_m(), false);
+  frame.origins_S = read.Triples<float>("origins_m", proto.origins_m(), false);
+  if (!read.ok()) return;
+  frame.labels.assign(proto.labels().begin(), proto.labels().end());
+  frame.no_return.assign(proto.no_return().begin(), proto.no_return().end());
+  if (!proto.has_depth_image()) return;
+  const std::pair<const char*, bool> others[] = {{"points_m", !frame.points_S.empty()},
+                                                 {"labels", !frame.labels.empty()},
+                                                 {"no_return", !frame.no_return.empty()},
+                                                 {"origins_m", !frame.origins_S.empty()}};
+  for (const auto& [field, is_there] : others) {
+    if (is_there)
+      read.Fail("depth_image", absl::StrCat("there are ", field,
+                                            " too; a frame has a "
+                                            "depth image or points"));
+  }
+  if (!read.ok()) return;
+  const absl::StatusOr<DepthImage> image = ReadDepthImage(proto.depth_image(), limits.max_points);
+  if (!image.ok()) return read.Fail(image.status());
+  SetPoints(*image, frame);
+}
+
 }  // namespace
 
 void Write(const Frame& frame, v1::Frame* proto) {
@@ -69,6 +97,11 @@ void Write(const Frame& frame, v1::Frame* proto) {
   }
 }
 
+void Write(const Frame& frame, const DepthImage& image, v1::Frame* proto) {
+  Write(frame, proto);
+  Write(image, proto->mutable_depth_image());
+}
+
 absl::StatusOr<Frame> ReadFrame(const std::string& field, const v1::Frame& proto,
                                 const FrameLimits& limits) {
   FieldReader read(field + ".");
@@ -80,11 +113,8 @@ absl::StatusOr<Frame> ReadFrame(const std::string& field, const v1::Frame& proto
   frame.T_W_S =
       read.ReadPose("world_from_sensor", proto.has_world_from_sensor(), proto.world_from_sensor());
   ReadMotions(proto, read, frame);
-  frame.points_S = read.Triples<float>("points_m", proto.points_m(), false);
-  frame.origins_S = read.Triples<float>("origins_m", proto.origins_m(), false);
+  ReadPoints(proto, limits, read, frame);
   if (!read.ok()) return read.status();
-  frame.labels.assign(proto.labels().begin(), proto.labels().end());
-  frame.no_return.assign(proto.no_return().begin(), proto.no_return().end());
   if (absl::Status status = Validate(frame, limits); !status.ok()) {
     return WithFieldPrefix(field + ".", status);
   }
