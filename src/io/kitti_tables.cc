@@ -3,90 +3,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_split.h"
-#include "io/file.h"
 #include "io/rigid_matrix.h"
+#include "io/word_lines.h"
 
 namespace clearway {
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr std::uint64_t kMaxBytes = 1 << 28;
-constexpr int kMost = 99'999'999;
-
-// A line's words; the first error is kept, so that a line is read like a struct.
-class Words {
- public:
-  Words(std::string where, std::vector<std::string> words)
-      : where_(std::move(where)), words_(std::move(words)) {}
-
-  std::size_t size() const { return words_.size(); }
-  const std::string& where() const { return where_; }
-  const std::string& Text(std::size_t i) const { return words_[i]; }
-  double Number(std::size_t i) {
-    constexpr double kMostOfAny = 1e6;
-    double value = 0;
-    if (!absl::SimpleAtod(words_[i], &value) || !(std::abs(value) <= kMostOfAny)) {
-      Fail(i, absl::StrCat("a number within ", kMostOfAny));
-    }
-    return value;
-  }
-  int Integer(std::size_t i, int min) {
-    int value = 0;
-    if (!absl::SimpleAtoi(words_[i], &value) || value < min || value > kMost) {
-      Fail(i, absl::StrCat("an integer from ", min, " to ", kMost));
-    }
-    return value;
-  }
-  void Fail(std::size_t i, const std::string& expected) {
-    if (!status_.ok()) return;
-    status_ = absl::InvalidArgumentError(
-        absl::StrCat(where_, ", word ", i + 1, ": '", words_[i], "', expected ", expected));
-  }
-  const absl::Status& status() const { return status_; }
-
- private:
-  std::string where_;
-  std::vector<std::string> words_;
-  absl::Status status_;
-};
-
-// Lines that are not empty. Where a file might be cut off in the middle of a number, the last one
-// must end.
-enum class LastLine { kEnds, kMayBeOpen };
-absl::StatusOr<std::vector<Words>> ReadLines(const Path& path, LastLine last) {
-  const auto text = ReadWholeFile(path, kMaxBytes);
-  if (!text.ok()) return text.status();
-  if (last == LastLine::kEnds && !text->empty() && text->back() != '\n') {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path.string(), ": the last line does not end; the file seems cut off"));
-  }
-  std::vector<Words> lines;
-  int number = 0;
-  for (const absl::string_view line : absl::StrSplit(*text, '\n')) {
-    ++number;
-    std::vector<std::string> words =
-        absl::StrSplit(line, absl::ByAnyChar(" \t\r"), absl::SkipEmpty());
-    if (words.empty()) continue;
-    lines.emplace_back(absl::StrCat(path.string(), ", line ", number), std::move(words));
-  }
-  return lines;
-}
-
-absl::Status WrongCount(const Words& line, const std::string& expected) {
-  return absl::InvalidArgumentError(
-      absl::StrCat(line.where(), ": ", line.size(), " words, expected ", expected));
-}
 
 // The numbers behind a key, of which the object and the tracking benchmark spell some otherwise.
 absl::StatusOr<std::vector<double>> Matrix(std::vector<Words>& lines, const Path& path,
@@ -132,7 +62,7 @@ Pose BoxInCamera(const Eigen::Vector3d& bottom_C, double height_m, double turn_r
 }  // namespace
 
 absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
-  auto lines = ReadLines(path, LastLine::kMayBeOpen);
+  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
   if (!lines.ok()) return lines.status();
   const auto projection = Matrix(*lines, path, {"P2"}, 12);
   if (!projection.ok()) return projection.status();
@@ -150,7 +80,7 @@ absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
 absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
   constexpr double kEarthRadius_m = 6378137, kRadPerDeg = std::numbers::pi / 180;
   constexpr std::size_t kFewest = 6;  // latitude, longitude, altitude, roll, pitch, yaw
-  auto lines = ReadLines(path, LastLine::kEnds);
+  auto lines = ReadWordLines(path, LastLine::kEnds);
   if (!lines.ok()) return lines.status();
   std::vector<Pose> T_W_I;
   std::optional<std::pair<double, Eigen::Vector3d>> origin;  // scale, and the first place
@@ -180,7 +110,7 @@ absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
 // Columns: frame, track, type, truncated, occluded, alpha, four of the box in the image, height,
 // width, length, x, y, z, rotation_y, and of results a score.
 absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
-  auto lines = ReadLines(path, LastLine::kEnds);
+  auto lines = ReadWordLines(path, LastLine::kEnds);
   if (!lines.ok()) return lines.status();
   KittiLabels labels;
   for (Words& line : *lines) {
