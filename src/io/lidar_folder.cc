@@ -70,7 +70,8 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
   return absl::NotFoundError(
       absl::StrCat(folder.string(),
                    ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
-                   "sequence is named by the folder of its scans, training/velodyne/NNNN)"));
+                   "sequence is named by the folder of its scans, training/velodyne/NNNN; a TUM "
+                   "RGB-D sequence has a depth.txt)"));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ THIRD_PARTY = [
     (r"ompl/", [r"include/clearway/planning/", r"src/planning/", r"examples/"]),
     (r"octomap/", [r"src/io/"]),
     (r"libqhull|qhull", [r"src/geometry/"]),
+    (r"png\.h", [r"src/io/png\.cc"]),
     (r"sqlite3\.h|assimp/", [r"src/io/", r"server/"]),
     (r"zstd\.h", [r"src/(io|wire)/", r"server/"]),
     (r"cairo", [r"src/report/"]),

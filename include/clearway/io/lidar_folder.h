@@ -46,12 +46,12 @@ struct RecordedBox {
   int frame = 0;
   ObjectId id = 0;
   std::string type;
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // length, width, height; 0 if not said
   Pose T_W_B;
   int n_points = 0;  // below 0 if the source does not say
 };
 
-// An opened folder. A value.
+// An opened folder, of these or of others that have poses and boxes. A value.
 struct LidarFolder {
   // The frames of the range. Frame::sequence is the number in the tables, labels are track ids.
   // A motion is there when both boxes are, in frames of the range.

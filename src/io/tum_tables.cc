@@ -1,0 +1,169 @@
+#include "io/tum_tables.h"
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "io/word_lines.h"
+
+namespace clearway {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr Duration kReach = std::chrono::milliseconds(20);  // that of the benchmark's associate.py
+constexpr Duration kLongestGap = std::chrono::milliseconds(100);
+constexpr double kDepthFactor = 5000;  // counts per metre
+
+// Those of the colour camera, for which depth images are registered.
+struct PublishedCamera {
+  const char* name;
+  double fx, fy, cx, cy;
+};
+constexpr PublishedCamera kPublished[] = {{"freiburg1", 517.3, 516.5, 318.6, 255.3},
+                                          {"freiburg2", 520.9, 521.0, 325.1, 249.7},
+                                          {"freiburg3", 535.4, 539.2, 320.1, 247.6}};
+
+absl::Status GoesBack(const Words& line, Time stamp, Time before) {
+  return absl::InvalidArgumentError(absl::StrCat(line.where(), ": the stamp ", ToNanoseconds(stamp),
+                                                 " ns does not come after ", ToNanoseconds(before),
+                                                 " ns"));
+}
+
+DepthImage CameraOf(double fx, double fy, double cx, double cy, double depth_factor) {
+  DepthImage camera;
+  camera.fx = fx;
+  camera.fy = fy;
+  camera.cx = cx;
+  camera.cy = cy;
+  camera.depth_unit_m = 1 / depth_factor;
+  return camera;
+}
+
+absl::StatusOr<DepthImage> ReadCamera(const Path& path) {
+  auto lines = ReadWordLines(path, LastLine::kMayBeOpen, Comments::kHash);
+  if (!lines.ok()) return lines.status();
+  if (lines->size() != 1) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        path.string(), ": ", lines->size(), " lines, expected one: fx fy cx cy [depth_factor]"));
+  }
+  Words& line = lines->front();
+  if (line.size() != 4 && line.size() != 5) return WrongCount(line, "fx fy cx cy [depth_factor]");
+  const DepthImage camera =
+      CameraOf(line.Positive(0), line.Positive(1), line.Number(2), line.Number(3),
+               line.size() == 5 ? line.Positive(4) : kDepthFactor);
+  if (!line.status().ok()) return line.status();
+  return camera;
+}
+
+// The entries around t: the last one not after it, and the next.
+template <class Entry>
+std::pair<const Entry*, const Entry*> Around(const std::vector<Entry>& entries, Time t) {
+  const auto next = std::ranges::upper_bound(entries, t, {}, &Entry::stamp);
+  return {next == entries.begin() ? nullptr : &*std::prev(next),
+          next == entries.end() ? nullptr : &*next};
+}
+
+// The nearer one, if it is within reach.
+template <class Entry>
+const Entry* Nearest(std::pair<const Entry*, const Entry*> around, Time t) {
+  const auto [before, after] = around;
+  const bool is_after =
+      before == nullptr || (after != nullptr && after->stamp - t < t - before->stamp);
+  const Entry* const nearest = is_after ? after : before;
+  if (nearest == nullptr) return nullptr;
+  return std::chrono::abs(nearest->stamp - t) <= kReach ? nearest : nullptr;
+}
+
+}  // namespace
+
+absl::StatusOr<TumImages> ReadTumImages(const Path& path) {
+  auto lines = ReadWordLines(path, LastLine::kMayBeOpen, Comments::kHash);
+  if (!lines.ok()) return lines.status();
+  TumImages images;
+  for (Words& line : *lines) {
+    if (line.size() != 2) return WrongCount(line, "timestamp filename");
+    const Time stamp = line.Stamp(0);
+    if (!line.status().ok()) return line.status();
+    if (!images.empty() && stamp <= images.back().stamp) {
+      return GoesBack(line, stamp, images.back().stamp);
+    }
+    images.push_back({stamp, path.parent_path() / line.Text(1)});
+  }
+  if (images.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": lists no image"));
+  }
+  return images;
+}
+
+absl::StatusOr<TumTrack> ReadTumTrack(const Path& path) {
+  auto lines = ReadWordLines(path, LastLine::kEnds, Comments::kHash);
+  if (!lines.ok()) return lines.status();
+  TumTrack track;
+  for (Words& line : *lines) {
+    if (line.size() != 8) return WrongCount(line, "timestamp tx ty tz qx qy qz qw");
+    const TumPose pose{line.Stamp(0), line.PoseFrom(1)};
+    if (!line.status().ok()) return line.status();
+    if (!track.empty() && pose.stamp < track.back().stamp) {
+      return GoesBack(line, pose.stamp, track.back().stamp);
+    }
+    track.push_back(pose);
+  }
+  if (track.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": holds no pose"));
+  }
+  return track;
+}
+
+absl::StatusOr<std::map<ObjectId, TumTrack>> ReadTumObjects(const Path& path) {
+  auto lines = ReadWordLines(path, LastLine::kEnds, Comments::kHash);
+  if (!lines.ok()) return lines.status();
+  std::map<ObjectId, TumTrack> tracks;
+  for (Words& line : *lines) {
+    if (line.size() != 9) return WrongCount(line, "timestamp id tx ty tz qx qy qz qw");
+    const TumPose pose{line.Stamp(0), line.PoseFrom(2)};
+    const ObjectId id = line.Integer(1, 1);
+    if (!line.status().ok()) return line.status();
+    TumTrack& track = tracks[id];
+    if (!track.empty() && pose.stamp <= track.back().stamp) {
+      return GoesBack(line, pose.stamp, track.back().stamp);
+    }
+    track.push_back(pose);
+  }
+  return tracks;
+}
+
+absl::StatusOr<DepthImage> ReadTumCamera(const Path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / "camera.txt", error)) {
+    return ReadCamera(folder / "camera.txt");
+  }
+  for (const auto& [name, fx, fy, cx, cy] : kPublished) {
+    if (folder.filename().string().find(name) != std::string::npos) {
+      return CameraOf(fx, fy, cx, cy, kDepthFactor);
+    }
+  }
+  return absl::NotFoundError(absl::StrCat(
+      folder.string(),
+      ": which camera this is of the folder's name does not tell (freiburg1, freiburg2 or "
+      "freiburg3 "
+      "in it would); write its intrinsics, 'fx fy cx cy' in pixels and, unless it is 5000, the "
+      "depth's counts per metre, to camera.txt there"));
+}
+
+const TumImage* ImageAt(const TumImages& images, Time t) { return Nearest(Around(images, t), t); }
+
+std::optional<Pose> PoseAt(const TumTrack& track, Time t) {
+  const auto around = Around(track, t);
+  const TumPose* const nearest = Nearest(around, t);
+  if (nearest == nullptr) return std::nullopt;
+  const auto [before, after] = around;
+  if (nearest->stamp == t || before == nullptr || after == nullptr) return nearest->T_W_X;
+  const Duration gap = after->stamp - before->stamp;
+  if (gap > kLongestGap) return nearest->T_W_X;
+  return Interpolate(before->T_W_X, after->T_W_X, ToSeconds(t - before->stamp) / ToSeconds(gap));
+}
+
+}  // namespace clearway
