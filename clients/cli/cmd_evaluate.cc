@@ -132,7 +132,9 @@ void AddEvaluate(Cli& cli) {
                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
   command
       ->add_option("input", flags->spec,
-                   "A folder of LiDAR scans with boxes, or sim:NAME: they know\nthe truth")
+                   "A folder of LiDAR scans with boxes, a KITTI or TUM RGB-D\nsequence with poses "
+                   "of objects, or "
+                   "sim:NAME: they know\nthe truth")
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))

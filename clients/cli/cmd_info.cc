@@ -10,6 +10,7 @@ namespace {
 constexpr char kExamples[] =
     "  clearway info crossing.cwr\n"
     "  clearway info kitti0000_fov --poses oxts\n"
+    "  clearway info rgbd_dataset_freiburg3_walking_xyz\n"
     "  clearway info map.bt\n"
     "  clearway info sim:street --json";
 
@@ -52,7 +53,9 @@ void AddInfo(Cli& cli) {
                                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
   command
       ->add_option("input", flags->spec,
-                   "A recording, a folder of LiDAR scans, an OctoMap file\n(.bt, .ot), or sim:NAME")
+                   "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, an "
+                   "OctoMap file (.bt, "
+                   ".ot), or sim:NAME")
       ->required();
   command
       ->add_option("--poses", flags->source.poses,

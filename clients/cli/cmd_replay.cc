@@ -21,7 +21,8 @@ namespace {
 constexpr char kExamples[] =
     "  clearway replay crossing.cwr\n"
     "  clearway replay sim:street --noise table1 --rate 1\n"
-    "  clearway replay kitti0000_fov --poses icp --from 0 --to 59";
+    "  clearway replay kitti0000_fov --poses icp --from 0 --to 59\n"
+    "  clearway replay rgbd_dataset_freiburg3_walking_xyz --stride 2 --max-depth 5";
 
 struct Flags {
   ServerFlags server;
@@ -168,8 +169,10 @@ void AddReplay(Cli& cli) {
   CLI::App* command = AddCommand(cli, "replay", "Send frames to the server", kExamples,
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
   command
-      ->add_option("source", flags->spec,
-                   "A recording, a folder of LiDAR scans, or sim:NAME\n(a scenario of 'simulate')")
+      ->add_option(
+          "source", flags->spec,
+          "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, or sim:NAME (a "
+          "scenario of 'simulate')")
       ->required();
   command
       ->add_option(

@@ -14,10 +14,12 @@ struct Track {
   std::string type;
   std::size_t frames = 0;
   std::optional<std::uint64_t> points;               // if the source says how many
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // mean
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  // mean; 0 if not said
   double path_m = 0;                                 // of the box's centre
   Eigen::Vector3d last_W = Eigen::Vector3d::Zero();
 };
+
+bool HasSize(const Track& track) { return !track.size_m.isZero(); }
 
 std::map<ObjectId, Track> TracksOf(const std::vector<RecordedBox>& boxes) {
   std::map<ObjectId, Track> tracks;
@@ -61,8 +63,8 @@ std::string TableOf(const std::map<ObjectId, Track>& tracks) {
   Table table({"id", "type", "frames", "points", "size", "path m"});
   for (const auto& [id, track] : tracks) {
     table.AddRow({absl::StrCat(id), track.type, Grouped(track.frames),
-                  track.points ? Grouped(*track.points) : "-", Size(track.size_m),
-                  Fixed(track.path_m, 1)});
+                  track.points ? Grouped(*track.points) : "-",
+                  HasSize(track) ? Size(track.size_m) : "-", Fixed(track.path_m, 1)});
   }
   return table.ToString();
 }
@@ -74,7 +76,7 @@ Json JsonOf(const std::map<ObjectId, Track>& tracks) {
                        {"type", track.type},
                        {"frames", track.frames},
                        {"points", track.points ? Json(*track.points) : Json()},
-                       {"size_m", ToJson(track.size_m)},
+                       {"size_m", HasSize(track) ? ToJson(track.size_m) : Json()},
                        {"path_m", track.path_m}});
   }
   return objects;
@@ -93,11 +95,12 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
   const Time last = empty ? Time() : folder->poses.back().stamp;
 
   FileInfo info;
-  info.text = absl::StrCat(
-      "folder      ", path, "\n", "frames      ", Grouped(folder->frames.frame_count), " over ",
-      Seconds(last - first), ", ", Grouped(count->scans), " with points\n", "points      ",
-      Grouped(count->points), "\n", "sensor      moves ", Fixed(SensorPath(folder->poses), 1),
-      " m\n", "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  info.text =
+      absl::StrCat("source      ", folder->frames.description, "\n", "frames      ",
+                   Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
+                   Grouped(count->scans), " with points\n", "points      ", Grouped(count->points),
+                   "\n", "sensor      moves ", Fixed(SensorPath(folder->poses), 1), " m\n",
+                   "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
   info.json = {{"kind", "lidar_folder"},
                {"path", path},
                {"description", folder->frames.description},

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
+#include "clearway/io/tum_rgbd.h"
 #include "clearway/sim/scenarios.h"
 #include "cli/cli.h"
 
@@ -30,6 +31,14 @@ LidarObjects LidarObjectsOf(const std::string& text) {
 ObjectReport ObjectReportOf(const std::string& text) {
   if (text == "poses") return ObjectReport::kPoses;
   return text == "none" ? ObjectReport::kNothing : ObjectReport::kMotions;
+}
+
+absl::StatusOr<LidarFolder> OpenTum(const std::string& path, const SourceFlags& flags,
+                                    bool allow_missing_points) {
+  return OpenTumRgbd(path, {.objects = LidarObjectsOf(flags.objects),
+                            .allow_missing_points = allow_missing_points,
+                            .stride = flags.stride,
+                            .max_depth_m = flags.max_depth_m});
 }
 
 }  // namespace
@@ -67,7 +76,7 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
   command
       ->add_option("--objects", flags->objects,
                    "What frames say of objects: motions, poses or none\n"
-                   "(simulator and LiDAR folders)")
+                   "(simulator and folders)")
       ->check(CLI::IsMember({"motions", "poses", "none"}).description(""))
       ->capture_default_str()
       ->group("Source");
@@ -79,8 +88,19 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
       ->group("Source");
   command
       ->add_flag("--allow-missing-points", flags->allow_missing_points,
-                 "Take frames of a LiDAR folder that have a pose but no\nfile of points as frames "
+                 "Take frames of a folder that have a pose but no file of\npoints as frames "
                  "without points")
+      ->group("Source");
+  command
+      ->add_option("--stride", flags->stride,
+                   "Of a TUM RGB-D sequence's images, use every n-th column\nand row")
+      ->check(CLI::Range(1, 65'535).description(""))
+      ->capture_default_str()
+      ->group("Source");
+  command
+      ->add_option("--max-depth", flags->max_depth_m,
+                   "Of a TUM RGB-D sequence's images, leave out what is\nfarther, in metres")
+      ->check(Between(0.001, 1e6))
       ->group("Source");
   AddSimulationFlags(command, flags);
 }
@@ -116,6 +136,7 @@ absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceF
 
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points) {
+  if (IsTumRgbd(path)) return OpenTum(path, flags, allow_missing_points);
   LidarFolderOptions options;
   options.poses = LidarPosesOf(flags.poses);
   options.objects = LidarObjectsOf(flags.objects);

@@ -25,7 +25,10 @@ struct SourceFlags {
   bool allow_missing_points = false;
   // LiDAR folders.
   std::string poses = "any";
-  // Both.
+  // TUM RGB-D sequences.
+  std::uint32_t stride = 1;
+  std::optional<double> max_depth_m;
+  // All of them.
   std::string objects = "motions";
 };
 
@@ -39,12 +42,13 @@ SourceKind KindOf(const std::string& spec);
 // "sim:crossing", or "crossing"; NOT_FOUND lists the scenarios.
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags);
 
+// Of LiDAR scans, or a sequence of KITTI's tracking benchmark or TUM's RGB-D benchmark.
 // `allow_missing_points`: as in LidarFolderOptions.
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points);
 
-// A recording, a LiDAR folder, or "sim:<scenario>". Errors as the readers'; INVALID_ARGUMENT for a
-// map, which holds no frames.
+// A recording, a folder as OpenFolder takes it, or "sim:<scenario>". Errors as the readers';
+// INVALID_ARGUMENT for a map, which holds no frames.
 absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlags& flags);
 
 }  // namespace clearway::cli

@@ -49,6 +49,9 @@ absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::s
   for (const RecordedBox& box : folder->boxes) {
     Track& track = by_id.try_emplace(box.id, Track{Box{}, {}}).first->second;
     Box& largest = std::get<Box>(track.shape);
+    if (box.size_m.isZero()) {
+      return fields->Error("file", "its objects come without sizes; boxes are needed");
+    }
     largest.size_m = largest.size_m.cwiseMax(box.size_m);
     track.seen.push_back({seconds.at(box.frame), box.T_W_B});
   }

@@ -33,11 +33,17 @@ absl::StatusOr<TrueSource> OpenTrueSource(const std::string& spec, const SourceF
   if (KindOf(spec) == SourceKind::kLidarFolder) {
     auto folder = OpenFolder(spec, flags, flags.allow_missing_points);
     if (!folder.ok()) return folder.status();
+    if (folder->boxes.empty()) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          spec,
+          ": no boxes or poses of objects are recorded: nothing tells where they really were"));
+    }
     return OfFolder(*std::move(folder));
   }
   return absl::InvalidArgumentError(absl::StrCat(
       spec,
-      ": does not tell what really happened; sim:NAME and folders of LiDAR scans with boxes do"));
+      ": does not tell what really happened; sim:NAME and folders of scans with boxes or poses of "
+      "objects do"));
 }
 
 }  // namespace clearway::cli

@@ -18,8 +18,8 @@ struct TrueSource {
   std::optional<Simulation> simulation;   // that the frames are of, if they are of one
 };
 
-// A LiDAR folder, whose recorded boxes are the truth, or "sim:<scenario>". INVALID_ARGUMENT for
-// what tells no truth; else errors as the readers'.
+// A folder as OpenFolder takes it, whose recorded boxes are the truth, or "sim:<scenario>".
+// INVALID_ARGUMENT for what tells no truth; else errors as the readers'.
 absl::StatusOr<TrueSource> OpenTrueSource(const std::string& spec, const SourceFlags& flags);
 
 }  // namespace clearway::cli

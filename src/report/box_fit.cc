@@ -32,7 +32,7 @@ void BoxFitter::Add(const SceneSnapshot& scene) {
   for (const auto& object : scene.objects) {
     if (object->last_seen != scene.stamp || object->bridged) continue;
     const auto box = BoxOf(truth_, object->id, scene.stamp);
-    if (!box) continue;
+    if (!box || box->size_m.isZero()) continue;  // some sources tell poses alone
     Seen& seen = seen_[object->id];
     if (seen.object != nullptr && seen.object->first_seen != object->first_seen) seen = {};
     seen.object = object;

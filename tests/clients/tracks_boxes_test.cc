@@ -55,6 +55,17 @@ TEST(BoxTracks, TheLargestOfSizesThatDiffer) {
   EXPECT_EQ(std::get<Box>((*dut)[0].shape), (Box{{4, 2, 5}}));
 }
 
+TEST(BoxTracks, ObjectsWithoutSizesAreNoBoxes) {
+  const TemporaryFolder folder;
+  folder.Write("depth.txt", "1 a.png\n");
+  folder.Write("camera.txt", "1 1 0 0\n");
+  folder.Write("groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  folder.Write("object_poses.txt", "1 5 0 0 2 0 0 0 1\n");
+  const DataVariable data(folder.path().parent_path());
+  const auto dut = Parse("\"for_s\": 1, \"file\": \"" + folder.path().filename().string() + "\"");
+  EXPECT_THAT(std::string(dut.status().message()), HasSubstr("come without sizes"));
+}
+
 TEST(BoxTracks, ReadsARealDrive) {
   const auto folder = DataPath("kitti0000_fov");
   if (!folder) GTEST_SKIP() << "no recorded data";

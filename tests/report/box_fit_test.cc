@@ -50,6 +50,16 @@ TEST(BoxFitter, MeasuresAlongTheAxesOfTheTrueBox) {
   EXPECT_NEAR(fit.WorstDifference_m(), 0.9, 1e-6);
 }
 
+TEST(BoxFitter, JudgesNoBoxWithoutASize) {
+  Truth truth = OneBox();
+  truth.boxes = [](Time t) {
+    return std::vector<TrueBox>{{7, Eigen::Vector3d::Zero(), OneBox().boxes(t)[0].T_W_B}};
+  };
+  BoxFitter dut(truth);
+  dut.Add(SceneWith({7}, {{0.05, 0.05, 0.05}}, 1));
+  EXPECT_TRUE(dut.Fits().empty());
+}
+
 TEST(BoxFitter, TakesTheNewestMap) {
   BoxFitter dut(OneBox());
   dut.Add(SceneWith({7}, {{-0.05, 0.05, 0.05}, {0.25, 0.05, 0.05}}, 1));

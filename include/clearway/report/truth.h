@@ -14,7 +14,7 @@
 
 namespace clearway {
 
-// A box of an object at one time: B at its centre, x along its length.
+// A box of an object at one time: B at its centre, x along its length. Of size 0 if nobody told.
 struct TrueBox {
   ObjectId id = 0;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
