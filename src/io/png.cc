@@ -56,7 +56,8 @@ class Decoder {
 
   // Each is true if it succeeds; else error() says why.
   bool ReadHeader() {
-    if (info_ == nullptr || setjmp(png_jmpbuf(png_)) != 0) return false;
+    if (info_ == nullptr) return false;
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, &source_, OnRead);
     png_set_user_limits(png_, kMaxSide, kMaxSide);
     png_set_chunk_malloc_max(png_, kMaxChunkBytes);

@@ -71,7 +71,7 @@ absl::Status CheckMask(const DepthImage& image) {
 }
 
 std::uint64_t UsedOf(std::uint32_t side, std::uint32_t stride) {
-  return (std::uint64_t{side} + stride - 1) / stride;
+  return stride == 0 ? 0 : (std::uint64_t{side} + stride - 1) / stride;
 }
 
 // Of the rays through each used column (row), x (y) at z = 1.

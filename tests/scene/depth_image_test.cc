@@ -193,6 +193,9 @@ TEST(DepthImage, RefusesNamingTheField) {
 
 TEST(DepthImage, SizesDoNotOverflow) {
   DepthImage dut = Small();
+  dut.stride = 0;
+  EXPECT_EQ(UsedPixelCount(dut), 0u);
+  dut.stride = 1;
   dut.width = dut.height = 65'535;
   const absl::Status status = ValidateCamera(dut, kAny);
   EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
