@@ -17,8 +17,9 @@ struct GrayImage {
 };
 
 // Reads grey images, and images of a palette, whose values are then the palette's indices (as masks
-// often are). NOT_FOUND; INVALID_ARGUMENT naming the file for other kinds (colours, alpha), for
-// what is cut off or damaged, and for more than 20 million pixels. Any thread.
+// often are). NOT_FOUND; RESOURCE_EXHAUSTED above 128 MB; INVALID_ARGUMENT naming the file for
+// other kinds (colours, alpha), for what is cut off or damaged, and for more than 20 million
+// pixels. Any thread.
 absl::StatusOr<GrayImage> ReadGrayPng(const std::filesystem::path& path);
 
 }  // namespace clearway
