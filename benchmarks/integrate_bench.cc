@@ -88,6 +88,7 @@ SceneParams RobustParamsFor(const Input& input) {
   params.object_pose_error_rad = 0.02;
   params.reidentify = true;
   params.filter_labels = true;
+  params.dynamic_life = std::chrono::milliseconds(500);
   return params;
 }
 

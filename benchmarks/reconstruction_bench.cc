@@ -1,15 +1,20 @@
 // How well maps fit the simulator's street: exact SLAM, by rays that spare what they graze and by
 // OctoMap's rule; with the errors of the paper's Table I, with views where the source says and
 // where they fit the objects' maps; and with labels filtered, right ones and some of them wrong.
+// And what becomes of movers there that nobody labelled, with dynamic space and without.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "clearway/report/surface_judge.h"
+#include "clearway/report/unlabelled_score.h"
 #include "clearway/scene/scene_builder.h"
+#include "clearway/sim/missed_objects.h"
 #include "clearway/sim/scenarios.h"
 #include "clearway/sim/wrong_labels.h"
 #include "summary.h"
@@ -122,6 +127,39 @@ void WithFilter(benchmark::State& state, const ScenarioOptions& exact) {
   }
 }
 
+// Of a street where nobody labels anything.
+Unlabelled Missed(const ScenarioOptions& options, Duration dynamic_life) {
+  const Simulation simulation = *MakeScenario("street", options);
+  SceneParams params = ParamsOf({.options = options}, simulation);
+  params.dynamic_life = dynamic_life;
+  ThreadPool pool(1);
+  SceneBuilder builder(params, {}, pool);
+  const std::vector<ObjectId> ids = simulation.world().ObjectIds();
+  const std::set<ObjectId> movers(ids.begin(), ids.end());
+  UnlabelledScore score(TruthOf(std::make_shared<const World>(simulation.world()),
+                                simulation.StampOf(simulation.frame_count() - 1)),
+                        movers);
+  for (std::size_t k = 0; k < simulation.frame_count(); ++k) {
+    const Frame frame = simulation.MakeFrame(k);
+    if (!builder.Apply(WithoutObjects(frame, movers)).ok()) std::abort();
+    score.Add(frame, *builder.Publish());
+  }
+  return score.Result();
+}
+
+void WithoutLabels(benchmark::State& state, const ScenarioOptions& exact) {
+  for (auto _ : state) {
+    const Unlabelled with = Missed(exact, std::chrono::milliseconds(500));
+    const Unlabelled without = Missed(exact, Duration::zero());
+    state.counters["unlabelled_occupied_at_once"] = with.ShareOccupied();
+    state.counters["unlabelled_occupied_at_once_without"] = without.ShareOccupied();
+    state.counters["unlabelled_trail_voxels"] = with.MeanTrail();
+    state.counters["unlabelled_trail_voxels_without"] = without.MeanTrail();
+    state.counters["unlabelled_dynamic_elsewhere_fraction"] =
+        static_cast<double>(with.dynamic_elsewhere) / static_cast<double>(with.dynamic);
+  }
+}
+
 void Register(const Effort& effort) {
   Effort once = effort;
   once.repetitions = 1;
@@ -136,6 +174,7 @@ void Register(const Effort& effort) {
     for (auto _ : state) Reconstruct({.options = exact, .grazing_m = 0}, "_octomap", state);
   });
   Add("reconstruction_filtered", once, [=](auto& state) { WithFilter(state, exact); });
+  Add("reconstruction_unlabelled", once, [=](auto& state) { WithoutLabels(state, exact); });
   Add("reconstruction_table1", once, [=](auto& state) { WithNoise(state, noisy); });
 }
 

@@ -28,11 +28,12 @@ absl::StatusOr<VoxelMap> MapOf(const SceneSnapshot& scene, const ExportTarget& t
     if (!found.ok()) return found.status();
     return (*found)->map_O;
   }
-  return scene.static_map_W;
+  return scene.LastingMap();
 }
 
 // The static map or one object alone, in its own frame; the scene with its objects in colours.
 absl::StatusOr<std::string> PlyOf(const SceneSnapshot& scene, const ExportTarget& target) {
+  const VoxelMap lasting_W = scene.LastingMap();
   std::vector<PlyLayer> layers;
   if (const auto* at = std::get_if<SceneAtTarget>(&target)) {
     layers.push_back({&scene.static_map_W, {}, kStaticLabel, PlyColorOf(kStaticLabel)});
@@ -46,7 +47,7 @@ absl::StatusOr<std::string> PlyOf(const SceneSnapshot& scene, const ExportTarget
     if (!found.ok()) return found.status();
     layers.push_back({&(*found)->map_O, {}, object->id, PlyColorOf(object->id)});
   } else {
-    layers.push_back({&scene.static_map_W, {}, kStaticLabel, PlyColorOf(kStaticLabel)});
+    layers.push_back({&lasting_W, {}, kStaticLabel, PlyColorOf(kStaticLabel)});
   }
   return SerializePly(layers, PlyStyle::kPoints);
 }

@@ -37,7 +37,7 @@ grpc::Status OccupancyHandlers::GetPointOccupancy(grpc::ServerContext* context,
         if (!read.ok()) return read.status();
         const Eigen::Map<const Eigen::Matrix3Xf> points_W(request->points_m().data(), 3, points);
         const std::span times_ns(request->times_ns().data(), request->times_ns_size());
-        PointWriter writer(VersionOf(scene), points, response);
+        PointWriter writer(VersionOf(scene), !scene.dynamic_W.voxels().empty(), points, response);
         return AskPoints(scene, points_W, times_ns, gone,
                          [&](std::size_t i, const PointOccupancy& point) { writer.Set(i, point); });
       });

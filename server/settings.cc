@@ -175,6 +175,10 @@ std::vector<Setting> SceneSettings() {
                        "whether lost objects are known again under new ids"),
       CLEARWAY_SETTING("scene.filter_labels", scene.filter_labels,
                        "whether labels that the points around contradict are left out"),
+      CLEARWAY_SETTING("scene.dynamic_life_s", scene.dynamic_life,
+                       "how long what long was free is occupied after a hit; 0: as all is"),
+      CLEARWAY_SETTING("scene.dynamic_settle_s", scene.dynamic_settle,
+                       "hit for so long, it is static"),
       CLEARWAY_SETTING(
           "scene.keep_distance_m", scene.keep_distance_m,
           "what of the static map lies farther from the sensor is forgotten; 0: nothing"),

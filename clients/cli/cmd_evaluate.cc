@@ -6,14 +6,12 @@
 #include <thread>
 #include <vector>
 
-#include "clearway/report/true_ids.h"
 #include "clearway/scene/scene_builder.h"
-#include "clearway/sim/forgetful_tracker.h"
-#include "clearway/sim/wrong_labels.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/evaluation_html.h"
 #include "cli/progress.h"
+#include "cli/told_frames.h"
 
 namespace clearway::cli {
 namespace {
@@ -21,10 +19,9 @@ namespace {
 constexpr char kExamples[] =
     "  clearway evaluate sim:street --noise table1\n"
     "  clearway evaluate sim:street --grazing 4 --wrong-labels 0.05 --filter-labels\n"
+    "  clearway evaluate sim:street --unlabelled 1,2 --dynamic-life 1\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
-
-constexpr std::uint64_t kSeed = 1;  // of wrong labels
 
 struct Flags {
   std::string spec;
@@ -35,8 +32,8 @@ struct Flags {
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
   bool reidentify = false, filter_labels = false, clear_objects = false;
-  double wrong_labels = 0;
-  std::optional<double> forget_s;
+  double dynamic_life_s = 0;
+  ErrorFlags errors;
   bool json = false;
   std::string html;
 };
@@ -53,34 +50,9 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.reidentify = flags.reidentify;
   params.filter_labels = flags.filter_labels;
   params.clear_objects_by_rays = flags.clear_objects;
+  params.dynamic_life = FromSeconds(flags.dynamic_life_s);
   return params;
 }
-
-// Frames as a segmentation and a tracker with their errors tell them.
-class Teller {
- public:
-  explicit Teller(const Flags& flags) : wrong_labels_(flags.wrong_labels) {
-    if (flags.forget_s) tracker_.emplace(FromSeconds(*flags.forget_s));
-  }
-
-  Frame Tell(const Frame& frame) {
-    return WithWrongLabels(tracker_ ? tracker_->Retold(frame) : frame, wrong_labels_, kSeed);
-  }
-  // After Apply: the version as an evaluator wants it.
-  ScenePtr Judge(const Frame& told, const ScenePtr& scene) {
-    if (!tracker_) return scene;
-    identities_.Add(told, *scene, tracker_->true_ids());
-    return WithTrueIds(*scene, tracker_->true_ids());
-  }
-  std::optional<Identities> Result() const {
-    return tracker_ ? std::optional(identities_.Result()) : std::nullopt;
-  }
-
- private:
-  double wrong_labels_;
-  std::optional<ForgetfulTracker> tracker_;
-  IdentityScore identities_;
-};
 
 absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
                                     const Terminal& terminal) {
@@ -91,8 +63,8 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   }
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
-  Evaluator evaluator(source);
-  Teller teller(flags);
+  Evaluator evaluator(source, flags.errors.unlabelled);
+  FrameTeller teller(flags.errors);
   ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
   std::uint64_t points = 0;
   for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
@@ -101,13 +73,13 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
     const Frame told = teller.Tell(*frame);
     const auto report = builder.Apply(told);
     if (!report.ok()) return report.status();
-    evaluator.Add(k, *frame, teller.Judge(told, builder.Publish()));
+    evaluator.Add(k, *frame, teller.WithTrueNames(told, builder.Publish()));
     points += frame->points_S.size();
     progress.Update(k + 1, points);
   }
   progress.Finish();
   Evaluation found = std::move(evaluator).Result();
-  found.identities = teller.Result();
+  found.identities = teller.identities();
   return found;
 }
 
@@ -158,23 +130,20 @@ void AddEvaluate(Cli& cli) {
   command->add_option("--pose-error-deg", flags->pose_error_deg, "The same of angles, in degrees")
       ->check(Between(0, 57))
       ->capture_default_str();
-  command
-      ->add_option("--wrong-labels", flags->wrong_labels,
-                   "Give this share of the points a wrong label")
-      ->check(Between(0, 1))
-      ->capture_default_str();
   command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
   command->add_flag("--filter-labels", flags->filter_labels,
                     "As of clearway-server --scene-filter-labels");
   command->add_flag("--clear-objects", flags->clear_objects,
                     "As of clearway-server --scene-clear-objects-by-rays");
   command
-      ->add_option("--forget", flags->forget_s,
-                   "Give objects that were out of sight for so many seconds\na new id")
-      ->check(Between(0, 1000));
+      ->add_option("--dynamic-life", flags->dynamic_life_s,
+                   "As of clearway-server --scene-dynamic-life-s")
+      ->check(Between(0, 1000))
+      ->capture_default_str();
   command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
       ->type_name("FILE");
   command->add_flag("--json", flags->json, "Print JSON");
+  AddErrorFlags(command, &flags->errors);
   AddSourceFlags(command, &flags->source);
 }
 

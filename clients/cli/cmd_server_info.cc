@@ -69,6 +69,8 @@ Json ParamsJson(const SceneParams& p) {
           {"object_pose_error_rad", p.object_pose_error_rad},
           {"reidentify", p.reidentify},
           {"filter_labels", p.filter_labels},
+          {"dynamic_life_s", ToSeconds(p.dynamic_life)},
+          {"dynamic_settle_s", ToSeconds(p.dynamic_settle)},
           {"keep_distance_m", p.keep_distance_m},
           {"bounds_world", ToJson(p.bounds_W)},
           {"keep_out_boxes", p.keep_out_W.size()},

@@ -30,8 +30,11 @@ std::vector<SolidOverlap> Together(const std::map<ObjectId, std::vector<SolidOve
   return all;
 }
 
-Evaluator::Evaluator(const TrueSource& source)
+Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unlabelled)
     : predictions_(source.truth, {kAhead.begin(), kAhead.end()}), boxes_(source.truth) {
+  if (!unlabelled.empty()) {
+    unlabelled_.emplace(source.truth, std::set<ObjectId>(unlabelled.begin(), unlabelled.end()));
+  }
   if (!source.simulation) return;
   judge_.emplace(*source.simulation, std::vector<Duration>(kAhead.begin(), kAhead.end()));
 }
@@ -40,6 +43,7 @@ void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
   predictions_.Add(*scene);
   boxes_.Add(*scene);
   if (judge_) judge_->Add(k, frame, *scene);
+  if (unlabelled_) unlabelled_->Add(frame, *scene);
   AddObjects(*scene);
   found_.scene = std::move(scene);
 }
@@ -57,6 +61,7 @@ void Evaluator::AddObjects(const SceneSnapshot& scene) {
 Evaluation Evaluator::Result() && {
   found_.predictions = predictions_.Errors();
   found_.sizes = boxes_.Fits();
+  if (unlabelled_) found_.unlabelled = unlabelled_->Result();
   if (judge_) {
     found_.fits = judge_->Fits();
     found_.solids = judge_->overlaps();

@@ -14,6 +14,7 @@
 #include "clearway/report/identity_score.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/report/surface_judge.h"
+#include "clearway/report/unlabelled_score.h"
 #include "cli/truth_source.h"
 
 namespace clearway::cli {
@@ -35,6 +36,7 @@ struct Evaluation {
   std::map<ObjectId, std::vector<SolidOverlap>> solids;  // by kAhead
   std::optional<StaticFit> static_fit;
   std::optional<Identities> identities;  // where objects came back under new ids
+  std::optional<Unlabelled> unlabelled;  // where some were not labelled
 };
 
 inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
@@ -48,7 +50,8 @@ std::vector<SolidOverlap> Together(const std::map<ObjectId, std::vector<SolidOve
 // Collects an evaluation over the frames of a source. One thread.
 class Evaluator {
  public:
-  explicit Evaluator(const TrueSource& source);
+  // Of `unlabelled` the scene is told nothing.
+  Evaluator(const TrueSource& source, const std::vector<ObjectId>& unlabelled);
 
   // Frame k, of true labels, and the version after it, of objects under their true ids.
   void Add(std::size_t k, const Frame& frame, ScenePtr scene);
@@ -62,6 +65,7 @@ class Evaluator {
   PredictionScore predictions_;
   BoxFitter boxes_;
   std::optional<SurfaceJudge> judge_;  // where the true surfaces are known
+  std::optional<UnlabelledScore> unlabelled_;
   std::optional<Time> first_;
   Evaluation found_;
 };

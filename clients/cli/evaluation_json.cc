@@ -78,6 +78,15 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
                           {"known_again", found.identities->known_again},
                           {"wrong", found.identities->wrong}};
   }
+  if (found.unlabelled) {
+    json["unlabelled"] = {{"occupied_at_once", found.unlabelled->ShareOccupied()},
+                          {"mean_trail_voxels", found.unlabelled->MeanTrail()},
+                          {"most_trail_voxels", found.unlabelled->most_trail},
+                          {"last_trail_voxels", found.unlabelled->last_trail},
+                          {"dynamic_voxels", found.unlabelled->dynamic},
+                          {"dynamic_voxels_left", found.unlabelled->dynamic_left},
+                          {"dynamic_voxels_elsewhere", found.unlabelled->dynamic_elsewhere}};
+  }
   if (found.static_fit) json["static"] = ToJson(*found.static_fit);
   Print(out, json);
 }

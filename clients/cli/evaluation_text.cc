@@ -125,6 +125,22 @@ void PrintIdentities(std::ostream& out, const Identities& found) {
       << (found.wrong == 1 ? " was" : " were") << " taken for another object's.\n";
 }
 
+void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
+  const auto per_frame = [&](std::int64_t count) {
+    return TextOf(static_cast<double>(count) / static_cast<double>(found.frames), 1);
+  };
+  out << "\nOf movers that were not labelled, " << TextOf(found.ShareOccupied(), 3)
+      << " of the points lay in voxels that were occupied at once.\nVoxels that they had left but "
+         "that stayed occupied: "
+      << per_frame(found.trail) << " on average over the frames, at most " << found.most_trail
+      << ",\nin the end " << found.last_trail << ".\n";
+  if (found.dynamic == 0) return;
+  out << "Voxels of dynamic space: " << per_frame(found.dynamic)
+      << " on average. Of these they had "
+      << "left " << per_frame(found.dynamic_left) << ", and in\n"
+      << per_frame(found.dynamic_elsewhere) << " none of them ever was.\n";
+}
+
 }  // namespace
 
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
@@ -135,6 +151,7 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (!found.solids.empty()) PrintSolids(out, source, found);
   if (found.identities) PrintIdentities(out, *found.identities);
+  if (found.unlabelled) PrintUnlabelled(out, *found.unlabelled);
   if (found.static_fit) PrintStatic(out, *found.static_fit);
 }
 

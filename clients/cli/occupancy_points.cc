@@ -30,6 +30,7 @@ PointQuestion CrossProduct(std::span<const Eigen::Vector3d> points, std::span<co
 // What is there, in words: "object 3", "static map", nothing where nothing is known to be.
 std::string What(const PointOccupancy& answer) {
   if (answer.object != kStaticLabel) return absl::StrCat("object ", answer.object);
+  if (answer.dynamic) return "dynamic space";
   return answer.status == SpaceStatus::kOccupied ? "static map" : "";
 }
 
@@ -43,6 +44,7 @@ Json AsJson(const PointQuestion& question, const PointAnswers& answers) {
          {"time_ns", ToNanoseconds(question.times[i])},
          {"status", ToJson(answer.status)},
          {"object_id", answer.object},
+         {"dynamic", answer.dynamic},
          {"fused_log_odds", answer.fused_log_odds ? Json(*answer.fused_log_odds) : Json(nullptr)}});
   }
   return json;

@@ -40,6 +40,7 @@ inline constexpr Color kFree = Color::Hex(0xffffff);
 inline constexpr Color kUnknown = Color::Hex(0xd9dce1);
 inline constexpr Color kMoving = Color::Hex(0x0b7a75);
 inline constexpr Color kResting = Color::Hex(0x8fc1bd);
+inline constexpr Color kDynamic = Color::Hex(0xc2255c);
 }  // namespace palette
 
 }  // namespace clearway::report

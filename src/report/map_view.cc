@@ -58,6 +58,16 @@ void DrawColumns(Canvas& canvas, const MapView& view, const ColumnMap& columns,
                columns.height, pixels);
 }
 
+void DrawDynamic(Canvas& canvas, const MapView& view, const SceneSnapshot& scene) {
+  const VoxelGrid& grid = scene.static_map_W.grid();
+  const double size_px = grid.resolution_m() * view.px_per_m();
+  for (const DynamicVoxel& voxel : scene.dynamic_W.voxels()) {
+    const Aabb box_W = grid.BoxOf(voxel.key);
+    const Eigen::Vector2d corner = view.ToPixels(Eigen::Vector2d(box_W.min.x(), box_W.max.y()));
+    canvas.FillRect(corner.x(), corner.y(), size_px, size_px, palette::kDynamic);
+  }
+}
+
 void DrawScale(Canvas& canvas, const MapView& view) {
   const double length_m = RoundLength(view.area_W().Size().x() / 5);
   const double length_px = length_m * view.px_per_m();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "clearway/geometry/aabb.h"
+#include "clearway/scene/scene_snapshot.h"
 #include "report/canvas.h"
 #include "report/column_map.h"
 #include "report/polygon.h"
@@ -36,6 +37,9 @@ class MapView {
 
 void DrawColumns(Canvas& canvas, const MapView& view, const ColumnMap& columns,
                  double max_height_m);
+
+// Where something moves that nobody labelled.
+void DrawDynamic(Canvas& canvas, const MapView& view, const SceneSnapshot& scene);
 
 // A round length of about a fifth of the view, and the directions of W's axes, in the lower left
 // corner.

@@ -77,6 +77,7 @@ class TopViewPainter {
         canvas_, view_,
         report::ColumnsOf(scene_.static_map_W, view_.area_W(), options_.max_height_m),
         options_.max_height_m);
+    report::DrawDynamic(canvas_, view_, scene_);
     PaintObjects();
     PaintPredictions();
     PaintRecorded();
@@ -209,6 +210,9 @@ class TopViewPainter {
     legend.Heading("Static map");
     legend.Swatch(palette::kFree, {palette::kRule, 1.2}, "free");
     legend.Swatch(palette::kUnknown, {palette::kRule, 1.2}, "unknown");
+    if (!scene_.dynamic_W.voxels().empty()) {
+      legend.Swatch(palette::kDynamic, {palette::kInk, 1.2}, "dynamic space");
+    }
     legend.Heading("Occupied, over ground");
     legend.HeightBar(options_.max_height_m);
   }

@@ -11,14 +11,16 @@ namespace clearway {
 // Which points of a cloud are neighbours as its sensor sees them: within about a degree, and as far
 // away up to 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points
 // within about a degree of an object's, but none that has gone through to the end of its ray's
-// range. They have places from 0 to size() - 1, by direction. Const methods may run on any number
-// of threads.
+// range. They have places from 0 to size() - 1, by direction. Where points are dense, some of them
+// are taken for all. Const methods may run on any number of threads.
 class DirectionGrid {
  public:
   explicit DirectionGrid(const LabelledCloud& cloud);
 
   std::size_t size() const { return indices_.size(); }
   std::uint32_t IndexOf(std::size_t place) const { return indices_[place]; }  // into the cloud
+  // A few points have a second place or a third, where no question may be asked.
+  bool IsCopy(std::size_t place) const { return is_copy_[place] != 0; }
 
   // Of a point's neighbours, those that have its label and those that have another. If enough of
   // them are within 1.5 % of the range and 0.1 m, these alone.
@@ -39,6 +41,7 @@ class DirectionGrid {
 
   // By place.
   std::vector<std::uint32_t> indices_, cells_;
+  std::vector<char> is_copy_;
   std::vector<ObjectId> labels_;
   std::vector<float> x_m_, y_m_, z_m_, ranges_m_;  // from the sensor
 };

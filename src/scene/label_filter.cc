@@ -17,50 +17,57 @@ bool IsOutvoted(const DirectionGrid::Votes& votes) {
   return votes.others >= kFewestOthers && votes.others >= 2 * votes.fellows;
 }
 
-// The voxels that the objects of a scene are predicted to fill.
-class PredictedVoxels {
+// Where the objects of a scene are predicted to be.
+class PredictedObjects {
  public:
-  PredictedVoxels(const SceneObjects& objects, Time stamp, Duration horizon) {
+  PredictedObjects(const SceneObjects& objects, Time stamp, Duration horizon) {
     constexpr std::int64_t kFewestFrames = 3;  // before which nobody knows how it moves
     for (const auto& object : objects) {
       if (object->frames_seen < kFewestFrames || stamp - object->t_k() > horizon) continue;
       const Pose T_W_O = PredictPose(*object, stamp, horizon).T_W_O;
-      placed_.push_back(
-          {Transformed(T_W_O, object->observed_box_O), Inverse(T_W_O), &object->map_O});
+      placed_.push_back({Transformed(T_W_O, object->observed_box_O), Inverse(T_W_O), object.get()});
     }
   }
 
-  bool Contain(const Eigen::Vector3d& p_W) const {
+  // Whether one fills the point's voxel.
+  bool Fill(const Eigen::Vector3d& p_W) const {
     return std::ranges::any_of(placed_, [&](const Placed& object) {
       if (!object.box_W.Contains(p_W)) return false;
-      const VoxelMap& map_O = *object.map_O;
+      const VoxelMap& map_O = object.object->map_O;
       return map_O.State(map_O.grid().KeyOf(object.T_O_W * p_W)) == VoxelState::kOccupied;
     });
+  }
+  // Empty for one of which nothing is predicted.
+  Aabb BoxOf(ObjectId id) const {
+    const auto found = std::ranges::find_if(
+        placed_, [&](const Placed& object) { return object.object->IsCalled(id); });
+    return found == placed_.end() ? Aabb() : found->box_W;
   }
 
  private:
   struct Placed {
     Aabb box_W;
     Pose T_O_W;
-    const VoxelMap* map_O;
+    const MovingObject* object;
   };
   std::vector<Placed> placed_;
 };
 
-// Whether a point with an object's label has too few points of the object around it.
+// Whether a point with an object's label is rather what is around it, a single one at least among
+// others.
 bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
   constexpr std::uint32_t kFewestFellows = 2;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
-  return IsOutvoted(votes) || votes.fellows < kFewestFellows;
+  return IsOutvoted(votes) || (votes.fellows < kFewestFellows && votes.others > 0);
 }
 
 // Whether a static point is rather an object's. Static ones are many, and far from each other at a
 // distance, so that it takes an object's point nearby.
 bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
-                       const DirectionGrid& directions, const PredictedVoxels& objects) {
+                       const DirectionGrid& directions, const PredictedObjects& objects) {
   const std::uint32_t most_others = directions.ObjectPointsAbout(place);
   if (most_others == 0) return false;
-  const bool is_likely = objects.Contain(p_W.cast<double>()) || !directions.HasFellow(place);
+  const bool is_likely = objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place);
   if (!is_likely && most_others < kFewestOthers) return false;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
   return IsOutvoted(votes) || (is_likely && votes.others > 0);
@@ -95,10 +102,11 @@ Cluster TakeCluster(VoxelKey start, PointCounts& counts) {
 }
 
 // Leaves out the points of an object that lie apart from the others and are too few to be a part of
-// it. Returns how many.
+// it; if there are no others, those that are not where it is predicted. Returns how many.
 std::size_t LeaveOutStray(const LabelledCloud& cloud, const VoxelGrid& cubes,
-                          std::vector<std::uint32_t>& points) {
+                          const Aabb& predicted_W, std::vector<std::uint32_t>& points) {
   constexpr std::size_t kFewest = 5;
+  constexpr double kBeside_m = 0.2;
   const auto cube_of = [&](std::uint32_t i) { return cubes.KeyOf(cloud.ends_W[i].cast<double>()); };
   PointCounts counts;
   for (const std::uint32_t i : points) ++counts[cube_of(i)];
@@ -106,6 +114,11 @@ std::size_t LeaveOutStray(const LabelledCloud& cloud, const VoxelGrid& cubes,
   while (!counts.empty()) {
     const Cluster cluster = TakeCluster(counts.begin()->first, counts);
     if (cluster.points >= kFewest) kept.insert(cluster.cubes.begin(), cluster.cubes.end());
+  }
+  if (kept.empty()) {
+    const Aabb near_W = predicted_W.Padded(kBeside_m);
+    return std::erase_if(
+        points, [&](std::uint32_t i) { return !near_W.Contains(cloud.ends_W[i].cast<double>()); });
   }
   return std::erase_if(points, [&](std::uint32_t i) { return !kept.contains(cube_of(i)); });
 }
@@ -117,10 +130,11 @@ std::size_t LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const Scen
   constexpr double kVoxelsAcross = 16;  // a cube
   if (cloud.object_hits.empty()) return 0;
   const DirectionGrid directions(cloud);
-  const PredictedVoxels predicted(objects, stamp, params.horizon);
+  const PredictedObjects predicted(objects, stamp, params.horizon);
   std::size_t doubted = 0;
   std::vector<char> is_doubted(cloud.ends_W.size());
   for (std::size_t place = 0; place < directions.size(); ++place) {
+    if (directions.IsCopy(place)) continue;
     const std::uint32_t i = directions.IndexOf(place);
     RayEnd& kind = cloud.kinds[i];
     if (kind == RayEnd::kBlock) {
@@ -133,7 +147,7 @@ std::size_t LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const Scen
   const VoxelGrid cubes(kVoxelsAcross * params.resolution_m);
   for (auto& [id, points] : cloud.object_hits) {
     doubted += std::erase_if(points, [&](std::uint32_t i) { return is_doubted[i]; });
-    doubted += LeaveOutStray(cloud, cubes, points);
+    doubted += LeaveOutStray(cloud, cubes, predicted.BoxOf(id), points);
   }
   std::erase_if(cloud.object_hits, [](const auto& entry) { return entry.second.empty(); });
   return doubted;

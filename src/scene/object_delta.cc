@@ -94,6 +94,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   ObjectDelta delta;
   delta.id = to.id;
   delta.also = to.also;
+  delta.older_ids_told = to.older_ids_told;
   delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O, detail);
   delta.history = to.history;
   delta.keeps_future = from != nullptr && KeepsFuture(*from, to);
@@ -131,6 +132,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   if (base != nullptr) object = *base;
   object.id = delta.id;
   object.also = delta.also;
+  object.older_ids_told = delta.older_ids_told;
   object.history = delta.history;
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
   object.future_velocity_O = delta.future_velocity_O;

@@ -176,6 +176,7 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     object.bridged = true;
   }
   if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, after_gap, params);
+  if (clue.by_older_id) object.older_ids_told = stamp;
   return object;
 }
 

@@ -14,6 +14,7 @@ struct ObjectClue {
   const ObjectMotion* motion = nullptr;
   const ObjectPose* pose = nullptr;
   std::span<const std::uint32_t> points;  // its hits, as indices into the cloud
+  bool by_older_id = false;               // than the newest of the object's ids
 };
 
 // First sight: O at the centroid of the object's points (at least one), orientation identity. A

@@ -77,9 +77,9 @@ PointOccupancy StaticOccupancy(const SceneSnapshot& scene, const Eigen::Vector3d
   PointOccupancy answer;
   if (stored) answer.fused_log_odds = Dequantized(*stored);
   answer.status = stored ? SpaceStatus::kFree : SpaceStatus::kUnknownSpace;
-  if ((stored && map.model().Occupied(*stored)) || InKeepOut(scene.params, p_W)) {
-    answer.status = SpaceStatus::kOccupied;
-  }
+  const bool occupied = stored && map.model().Occupied(*stored);
+  if (occupied || InKeepOut(scene.params, p_W)) answer.status = SpaceStatus::kOccupied;
+  answer.dynamic = occupied && scene.dynamic_W.Find(map.grid().KeyOf(p_W)) != nullptr;
   return answer;
 }
 

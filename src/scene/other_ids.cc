@@ -15,11 +15,14 @@ constexpr Duration kYoung = std::chrono::seconds(2);
 // So long is waited before maps are joined, unless the new one goes out of sight before: of a first
 // glimpse (a flank without its ends) nobody knows where exactly it fits.
 constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
+// What was not seen for so long has gone out of sight: longer than the time between two scans of a
+// sensor, whatever other sensors see meanwhile.
+constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 
 bool IsToBeJoined(const MovingObject& object, Time stamp) {
   if (object.given() || stamp - object.first_seen > kYoung) return false;
   const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
-  return glimpsed == (object.last_seen < stamp);
+  return glimpsed == (stamp - object.last_seen > kOutOfSight);
 }
 
 std::vector<ObjectId> IdsOf(const MovingObject& object) {
@@ -27,6 +30,17 @@ std::vector<ObjectId> IdsOf(const MovingObject& object) {
   ids.insert(ids.begin(), object.id);
   return ids;
 }
+
+// As what it is told by now alone.
+MovingObject UnderNewestId(MovingObject object) {
+  object.id = object.also.back();
+  object.also.clear();
+  object.older_ids_told = {};
+  return object;
+}
+
+// Fewer points of an id than these, beside another's, are wrong labels.
+constexpr std::size_t kNotStray = 5;
 
 struct Match {
   ObjectId lost, young;
@@ -48,25 +62,37 @@ std::vector<Match> MatchesOf(const MovingObject& young,
 
 }  // namespace
 
+SceneObjects WithoutLapsedIds(SceneObjects objects, const std::map<ObjectId, ObjectClue>& clues,
+                              Time stamp, const SceneParams& params) {
+  for (auto& object : objects) {
+    if (object->also.empty() || stamp - object->older_ids_told <= params.object_lifetime) continue;
+    const std::vector<ObjectId> ids = IdsOf(*object);
+    const bool told_anew =
+        std::any_of(ids.begin(), ids.end() - 1, [&](ObjectId id) { return clues.contains(id); });
+    if (told_anew) object = std::make_shared<const MovingObject>(UnderNewestId(*object));
+  }
+  return objects;
+}
+
 std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
                                        std::map<ObjectId, ObjectClue>& clues) {
   std::set<ObjectId> two_after_all;
   for (const auto& object : objects) {
     if (object->also.empty()) continue;
-    std::vector<std::map<ObjectId, ObjectClue>::iterator> told;  // those with points last
+    std::vector<std::map<ObjectId, ObjectClue>::iterator> told;  // that with most points last
     for (const ObjectId id : IdsOf(*object)) {
       if (const auto clue = clues.find(id); clue != clues.end()) told.push_back(clue);
     }
-    const auto seen = std::stable_partition(
-        told.begin(), told.end(), [](const auto& clue) { return clue->second.points.empty(); });
+    std::ranges::stable_sort(told, {}, [](const auto& clue) { return clue->second.points.size(); });
     if (told.empty()) continue;
-    if (told.end() - seen > 1) {
+    if (told.size() > 1 && told[told.size() - 2]->second.points.size() >= kNotStray) {
       two_after_all.insert(object->id);
       continue;
     }
-    const ObjectClue newest = told.back()->second;
-    for (const auto& clue : told) clues.erase(clue);
-    clues[object->id] = newest;
+    ObjectClue clue = told.back()->second;
+    clue.by_older_id = told.back()->first != object->also.back();
+    for (const auto& other : told) clues.erase(other);
+    clues[object->id] = clue;
   }
   return two_after_all;
 }
@@ -83,7 +109,10 @@ std::size_t JoinSeenAgain(std::map<ObjectId, std::shared_ptr<const MovingObject>
     const auto same = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
       return other.lost == match.lost || other.young == match.young;
     });
-    if (same > 1) continue;
+    // In a chain of three the first two go first.
+    const bool lost_is_matched =
+        std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
+    if (same > 1 || lost_is_matched) continue;
     const MovingObject& lost = *objects.at(match.lost);
     const MovingObject& young = *objects.at(match.young);
     objects[match.lost] =

@@ -12,9 +12,14 @@
 
 namespace clearway {
 
+// An object that was not told of by its older ids for the object lifetime goes by its newest one
+// alone if the frame uses an older one: that is another object, by an id that is free again.
+SceneObjects WithoutLapsedIds(SceneObjects objects, const std::map<ObjectId, ObjectClue>& clues,
+                              Time stamp, const SceneParams& params);
+
 // What the frame says of an object under other ids counts for its first one. Returns the objects of
-// which two ids have points in this frame: they are two after all, and their clues stay as they
-// are.
+// which two ids have points in this frame (more than a few strays): they are two after all, and
+// their clues stay as they are.
 std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
                                        std::map<ObjectId, ObjectClue>& clues);
 

@@ -80,7 +80,7 @@ bool GoesAlike(const MovingObject& lost, const Pose& T_W_L, const MovingObject& 
 
 // How far from where it is predicted it may be; none if poses, and with them velocities (of about a
 // second), are off by so much that another one like it could be there. That one cannot be nearer to
-// it than its width, nor does what goes slowly get far.
+// it than its width, nor does what goes slowly get far; after a long way one could be.
 std::optional<double> Tolerance_m(const MovingObject& lost, double unseen_s,
                                   const SceneParams& params) {
   constexpr double kOfWidth = 0.5, kOfWay = 0.1;
@@ -88,6 +88,13 @@ std::optional<double> Tolerance_m(const MovingObject& lost, double unseen_s,
   const double beside_m = kOfWidth * std::min(size_m.x(), size_m.y());
   if (params.object_pose_error_m * std::max(1.0, unseen_s) > beside_m) return std::nullopt;
   return beside_m + kOfWay * lost.SpeedMps() * unseen_s;
+}
+
+// Whether they are so near each other that registering them is worth its time.
+bool MayTouch(const MovingObject& lost, const Pose& T_W_L, const MovingObject& young,
+              const Pose& T_W_Y, double apart_m) {
+  const Aabb lost_W = Transformed(T_W_L, lost.observed_box_O).Padded(apart_m);
+  return lost_W.Intersects(Transformed(T_W_Y, young.observed_box_O));
 }
 
 // The first pose that is no prediction.
@@ -104,13 +111,51 @@ Pose Registered(const MovingObject& lost, const std::vector<Eigen::Vector3d>& po
   return RegisterView(lost.map_O, points_Y, std::array{guess});
 }
 
+// The velocity of L's origin and its turn, of a body that moves so in the frame Y of its own.
+Twist SeenFrom(const Pose& T_Y_L, const Twist& velocity_Y) {
+  const Eigen::Quaterniond R_L_Y = T_Y_L.rotation.conjugate();
+  return {R_L_Y * velocity_Y.angular,
+          R_L_Y * (velocity_Y.linear + velocity_Y.angular.cross(T_Y_L.translation))};
+}
+
+VoxelMap WithVoxelsOf(VoxelMap map_L, const VoxelMap& map_Y, const Pose& T_Y_L, ThreadPool& pool) {
+  const Pose T_L_Y = Inverse(T_Y_L);
+  ScanUpdate update;
+  for (const Eigen::Vector3d& p_Y : OccupiedCenters(map_Y)) {
+    const Eigen::Vector3d p_L = T_L_Y * p_Y;
+    if (map_L.grid().Addressable(p_L)) update.MarkHit(map_L.grid().KeyOf(p_L));
+  }
+  map_L.Update(update, pool);
+  return map_L;
+}
+
+// With the poses known of `young`, and those stated for it: they are newer.
+MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& T_Y_L, Time stamp,
+                      const SceneParams& params) {
+  for (const StampedPose& pose : young.history) {
+    if (pose.stamp > lost.t_k()) lost.history.push_back({pose.stamp, pose.T_W_O * T_Y_L});
+  }
+  const Time oldest = lost.t_k() - params.history;
+  std::erase_if(lost.history, [&](const StampedPose& p) { return p.stamp < oldest; });
+  if (young.velocity_O) lost.velocity_O = SeenFrom(T_Y_L, *young.velocity_O);
+  if (!young.future.empty()) {
+    lost.future = young.future;
+    for (StampedPose& pose : lost.future) pose.T_W_O = pose.T_W_O * T_Y_L;
+    lost.future_velocity_O = SeenFrom(T_Y_L, young.future_velocity_O);
+  }
+  lost.future = FutureAfter(lost.future, stamp);
+  if (lost.future.empty()) lost.future_velocity_O = {};
+  lost.tracked_since = young.tracked_since;
+  lost.bridged = young.bridged;
+  return lost;
+}
+
 }  // namespace
 
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params) {
-  constexpr std::size_t kFewest = 20;  // voxels
-  const std::vector<Eigen::Vector3d> points_Y = OccupiedCenters(young.map_O);
-  if (points_Y.size() < kFewest) return std::nullopt;
+  constexpr std::int64_t kFewest = 20;  // voxels
+  if (young.map_O.occupied_count() < kFewest) return std::nullopt;
   const StampedPose& first = FirstPose(young);
   const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
@@ -118,7 +163,10 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   if (!GoesAlike(lost, predicted.T_W_O, young, unseen_s)) return std::nullopt;
 
   const std::optional<double> tolerance_m = Tolerance_m(lost, unseen_s, params);
-  if (!tolerance_m) return std::nullopt;
+  if (!tolerance_m || !MayTouch(lost, predicted.T_W_O, young, first.T_W_O, *tolerance_m)) {
+    return std::nullopt;
+  }
+  const std::vector<Eigen::Vector3d> points_Y = OccupiedCenters(young.map_O);
   const Pose T_Y_predicted = Inverse(first.T_W_O) * predicted.T_W_O;
   const Pose T_Y_L = Registered(lost, points_Y, T_Y_predicted, *tolerance_m / 2, unseen_s);
   const Eigen::Vector3d center_O = lost.observed_box_O.Center();
@@ -130,39 +178,19 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   return T_Y_L;
 }
 
-MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_Y_L, Time stamp,
-                    const SceneParams& params, ThreadPool& pool) {
-  const Pose T_L_Y = Inverse(T_Y_L);
-  ScanUpdate update;
-  for (const Eigen::Vector3d& p_Y : OccupiedCenters(young.map_O)) {
-    const Eigen::Vector3d p_L = T_L_Y * p_Y;
-    if (lost.map_O.grid().Addressable(p_L)) update.MarkHit(lost.map_O.grid().KeyOf(p_L));
-  }
-  VoxelMap map_O = lost.map_O;
-  map_O.Update(update, pool);
-
-  const Time since = young.history.front().stamp;
-  for (const StampedPose& pose : young.history) {
-    if (pose.stamp > lost.t_k()) lost.history.push_back({pose.stamp, pose.T_W_O * T_Y_L});
-  }
-  const Time oldest = lost.t_k() - params.history;
-  std::erase_if(lost.history, [&](const StampedPose& p) { return p.stamp < oldest; });
-  if (young.velocity_O) {
-    // The same screw, as L sees it.
-    const Pose ahead = T_L_Y * Exp(*young.velocity_O) * T_Y_L;
-    lost.velocity_O = Log(ahead);
-  }
-  if (young.T_B_O) lost.T_B_O = *young.T_B_O * T_Y_L;
-  lost.future = FutureAfter(lost.future, stamp);
-  if (lost.future.empty()) lost.future_velocity_O = {};
-  lost.tracked_since = since;
-  lost.bridged = young.bridged;
-  lost.last_seen = young.last_seen;
-  lost.frames_seen += young.frames_seen;
-  lost.also.push_back(young.id);
-  lost = WithMap(std::move(lost), std::move(map_O));
-  lost.bound = BoundOf(lost.history, since, lost.velocity_O.value_or(Twist{}), *lost.solid, params);
-  return lost;
+MovingObject Joined(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+                    Time stamp, const SceneParams& params, ThreadPool& pool) {
+  MovingObject joined = GoneOnAs(lost, young, T_Y_L, stamp, params);
+  if (young.T_B_O) joined.T_B_O = *young.T_B_O * T_Y_L;
+  joined.last_seen = young.last_seen;
+  joined.frames_seen += young.frames_seen;
+  joined.also.push_back(young.id);
+  joined.also.insert(joined.also.end(), young.also.begin(), young.also.end());
+  joined.older_ids_told = std::max(lost.t_k(), young.older_ids_told);
+  joined = WithMap(std::move(joined), WithVoxelsOf(lost.map_O, young.map_O, T_Y_L, pool));
+  joined.bound = BoundOf(joined.history, joined.tracked_since, joined.velocity_O.value_or(Twist{}),
+                         *joined.solid, params);
+  return joined;
 }
 
 }  // namespace clearway

@@ -17,9 +17,9 @@ namespace clearway {
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params);
 
-// `lost` as it goes on, at the stamp, with the voxels and poses of `young`. It keeps its id and its
-// frame; the id of `young` names it too.
-MovingObject Joined(MovingObject lost, const MovingObject& young, const Pose& T_Y_L, Time stamp,
-                    const SceneParams& params, ThreadPool& pool);
+// `lost` as it goes on, at the stamp, with the voxels and poses of `young`, and with what was
+// stated of its future. It keeps its id and its frame; the ids of `young` name it too.
+MovingObject Joined(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+                    Time stamp, const SceneParams& params, ThreadPool& pool);
 
 }  // namespace clearway

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "scene/dropped_object.h"
+#include "scene/dynamic_hits.h"
 #include "scene/given_object.h"
 #include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
@@ -60,12 +61,14 @@ std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, cons
 }
 
 // What of the frame says where the object is.
-std::string FieldThatPlaces(const Frame& frame, ObjectId id) {
+std::string FieldThatPlaces(const Frame& frame, const MovingObject& object) {
   for (std::size_t i = 0; i < frame.motions.size(); ++i) {
-    if (frame.motions[i].id == id) return absl::StrCat("motions[", i, "].world_motion");
+    if (object.IsCalled(frame.motions[i].id)) {
+      return absl::StrCat("motions[", i, "].world_motion");
+    }
   }
   for (std::size_t i = 0; i < frame.poses.size(); ++i) {
-    if (frame.poses[i].id == id) return absl::StrCat("poses[", i, "].world_from_box");
+    if (object.IsCalled(frame.poses[i].id)) return absl::StrCat("poses[", i, "].world_from_box");
   }
   return "labels";
 }
@@ -87,7 +90,7 @@ absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingO
   for (const auto& [id, object] : objects) {
     const double reach_m = object->history.back().T_W_O.translation.cwiseAbs().maxCoeff();
     if (reach_m <= limits.max_coordinate_m) continue;
-    return absl::InvalidArgumentError(absl::StrCat(FieldThatPlaces(frame, id), ": object ", id,
+    return absl::InvalidArgumentError(absl::StrCat(FieldThatPlaces(frame, *object), ": object ", id,
                                                    " would be at ", reach_m, " m; the limit is ",
                                                    limits.max_coordinate_m, " m"));
   }
@@ -112,8 +115,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   VoxelMap static_map_W = scene_.static_map_W;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
   std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
-  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(scene_.objects, clues);
-  for (const auto& object : scene_.objects) {
+  const SceneObjects named = WithoutLapsedIds(scene_.objects, clues, frame.stamp, scene_.params);
+  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues);
+  for (const auto& object : named) {
     if (Continues(*object, clues, frame.stamp, scene_.params) &&
         !two_after_all.contains(object->id)) {
       objects[object->id] = object;
@@ -122,8 +126,8 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
       ++report.objects_dropped;
     }
   }
-  static_map_W.Update(caster_.Cast(static_map_W, cloud.Rays(), scene_.params.rays),
-                      *pool_);  // II-B, II-C
+  DynamicSpace dynamic_W = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
+  report.voxels_dynamic = dynamic_W.voxels().size();
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
   for (const auto& [id, clue] : clues) {  // II-D
     const auto known = objects.find(id);
@@ -140,11 +144,27 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
 
   scene_.static_map_W = std::move(static_map_W);
+  scene_.dynamic_W = StillIn(scene_.static_map_W, dynamic_W);
   scene_.objects.clear();
   for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
   scene_.stamp = frame.stamp;
   has_frames_ = changed_ = true;
   return report;
+}
+
+DynamicSpace SceneBuilder::CastIntoStatic(const LabelledCloud& cloud, Time stamp,
+                                          VoxelMap& static_map_W) {
+  const SceneParams& params = scene_.params;
+  ScanUpdate update = caster_.Cast(static_map_W, cloud.Rays(), params.rays);
+  if (params.dynamic_life == Duration::zero()) {
+    static_map_W.Update(update, *pool_);
+    return {};
+  }
+  const DynamicSpace before = StillIn(static_map_W, scene_.dynamic_W);
+  static_map_W = WithoutDynamic(std::move(static_map_W), before);
+  DynamicChange change = TakeDynamicHits(static_map_W, before, stamp, params, update);
+  static_map_W.Update(update, *pool_);
+  return PutDynamic(std::move(change), static_map_W);
 }
 
 absl::Status SceneBuilder::CheckFits(const Frame& frame) const {
@@ -187,12 +207,14 @@ absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
     });
     scene_.static_map_W.PutBlock(key, block);
   });
+  scene_.dynamic_W = StillIn(scene_.static_map_W, scene_.dynamic_W);
   changed_ = true;
   return absl::OkStatus();
 }
 
 void SceneBuilder::ClearRegion(const Aabb& box_W) {
   scene_.static_map_W.Forget(box_W);
+  scene_.dynamic_W = StillIn(scene_.static_map_W, scene_.dynamic_W);
   changed_ = true;
 }
 

@@ -11,6 +11,21 @@ namespace {
 
 absl::Status Malformed(const std::string& what) { return absl::InvalidArgumentError(what); }
 
+absl::Status CheckDynamic(const SceneSnapshot& scene) {
+  const auto voxels = scene.dynamic_W.voxels();
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const auto& [key, first_hit, last_hit] = voxels[i];
+    const std::string field = absl::StrCat("dynamic[", i, "]");
+    if (!InRange(key)) return Malformed(field + ": address out of range");
+    if (i > 0 && !ComesBefore(voxels[i - 1].key, key)) return Malformed(field + ": out of order");
+    if (first_hit > last_hit) return Malformed(field + ": was last hit before it first was");
+    if (scene.static_map_W.State(key) != VoxelState::kOccupied) {
+      return Malformed(field + ": is not occupied");
+    }
+  }
+  return absl::OkStatus();
+}
+
 // Not under another of its ids: null then.
 const MovingObject* ObjectUnder(ObjectId first_id, const SceneSnapshot& scene) {
   const MovingObject* object = scene.FindObject(first_id);
@@ -28,6 +43,7 @@ SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to, MapDetail de
   delta.stamp = to.stamp;
   if (from == nullptr || !(from->params == to.params)) delta.params = to.params;
   delta.static_map_W = DiffMaps(base.static_map_W, to.static_map_W, detail);
+  if (!(base.dynamic_W == to.dynamic_W)) delta.dynamic_W = to.dynamic_W;
   for (const auto& object : to.objects) {
     const MovingObject* before = ObjectUnder(object->id, base);
     if (before != object.get()) delta.objects.push_back(DiffObjects(before, *object, detail));
@@ -58,6 +74,8 @@ absl::StatusOr<SceneSnapshot> Apply(const SceneSnapshot* base, const SceneDelta&
   scene.version = delta.to_version;
   scene.stamp = delta.stamp;
   if (auto s = ApplyMap("static_map", delta.static_map_W, scene.static_map_W); !s.ok()) return s;
+  if (delta.dynamic_W) scene.dynamic_W = *delta.dynamic_W;
+  if (auto s = CheckDynamic(scene); !s.ok()) return s;
 
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
   for (const auto& object : scene.objects) objects[object->id] = object;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_format.h"
+#include "scene/dynamic_hits.h"
 
 namespace clearway {
 namespace {
@@ -59,6 +60,14 @@ class ContentHasher {
       XXH3_128bits_update(state_, block.log_odds.data(), sizeof block.log_odds);
     });
   }
+  void Add(const DynamicSpace& space) {
+    Add(static_cast<std::int64_t>(space.voxels().size()));
+    for (const DynamicVoxel& voxel : space.voxels()) {
+      for (const std::int32_t i : {voxel.key.x, voxel.key.y, voxel.key.z}) Add(std::int64_t{i});
+      Add(voxel.first_hit);
+      Add(voxel.last_hit);
+    }
+  }
   void Add(const SceneParams& params);
   void Add(const MovingObject& object);
   void Add(const Shape& shape);
@@ -86,7 +95,8 @@ void ContentHasher::Add(const SceneParams& params) {
   Add(params.rays.grazing_m);
   Add(static_cast<std::int64_t>(params.solid));
   Add(std::int64_t{params.clear_objects_by_rays});
-  for (Duration duration : {params.horizon, params.object_lifetime, params.history}) {
+  for (Duration duration : {params.horizon, params.object_lifetime, params.history,
+                            params.dynamic_life, params.dynamic_settle}) {
     Add(std::int64_t{duration.count()});
   }
   Add(static_cast<std::int64_t>(params.motion));
@@ -105,6 +115,7 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(std::int64_t{object.id});
   Add(static_cast<std::int64_t>(object.also.size()));
   for (const ObjectId id : object.also) Add(std::int64_t{id});
+  Add(object.older_ids_told);
   Add(object.map_O);
   Add(object.history);
   Add(object.velocity_O);
@@ -152,8 +163,9 @@ bool SameShape(const MovingObject& a, const MovingObject& b) {
 }
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
-  return a.id == b.id && a.also == b.also && a.map_O == b.map_O && a.history == b.history &&
-         a.future == b.future && a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
+  return a.id == b.id && a.also == b.also && a.older_ids_told == b.older_ids_told &&
+         a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
+         a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
          a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
          a.bound == b.bound && a.tracked_since == b.tracked_since;
@@ -186,6 +198,8 @@ SceneSnapshot SceneSnapshot::Empty(const SceneParams& params) {
   return scene;
 }
 
+VoxelMap SceneSnapshot::LastingMap() const { return WithoutDynamic(static_map_W, dynamic_W); }
+
 const MovingObject* SceneSnapshot::FindObject(ObjectId id) const {
   const auto found = std::lower_bound(
       objects.begin(), objects.end(), id,
@@ -201,6 +215,7 @@ std::string SceneSnapshot::Hash() const {
   hasher.Add(stamp);
   hasher.Add(params);
   hasher.Add(static_map_W);
+  hasher.Add(dynamic_W);
   hasher.Add(static_cast<std::int64_t>(objects.size()));
   for (const auto& object : objects) hasher.Add(*object);
   return hasher.HexDigest();
@@ -208,6 +223,7 @@ std::string SceneSnapshot::Hash() const {
 
 bool SameContent(const SceneSnapshot& a, const SceneSnapshot& b) {
   return a.stamp == b.stamp && a.params == b.params && a.static_map_W == b.static_map_W &&
+         a.dynamic_W == b.dynamic_W &&
          std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
                     [](const auto& x, const auto& y) { return SameObject(*x, *y); });
 }

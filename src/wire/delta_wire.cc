@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/scene/given_object.h"
 #include "wire/block_codec.h"
+#include "wire/dynamic_wire.h"
 #include "wire/robot_wire.h"
 #include "wire/scene_wire.h"
 #include "wire/status.h"
@@ -21,11 +22,13 @@ class DeltaWriter {
       : delta_(delta), send_(send) {
     Begin();
     if (delta.params) Write(*delta.params, part_.mutable_params());
+    part_.set_dynamic_changed(delta.dynamic_W.has_value());
     part_.mutable_removed_object_ids()->Add(delta.removed.begin(), delta.removed.end());
   }
 
   bool Run() {
     AddMap(kStaticLabel, delta_.static_map_W);
+    if (delta_.dynamic_W) AddDynamic(delta_.dynamic_W->voxels());
     for (const ObjectDelta& object : delta_.objects) {
       AddObject(object);
       AddMap(object.id, object.map_O);
@@ -58,10 +61,19 @@ class DeltaWriter {
       Added(proto->zstd_block_deltas().size());
     }
   }
+  void AddDynamic(std::span<const DynamicVoxel> voxels) {
+    constexpr std::size_t kMost = 1 << 15;
+    for (; !voxels.empty() && alive_; voxels = voxels.subspan(std::min(kMost, voxels.size()))) {
+      v1::DynamicVoxels* proto = part_.add_dynamic();
+      Write(voxels.first(std::min(kMost, voxels.size())), delta_.stamp, proto);
+      Added(proto->ByteSizeLong());
+    }
+  }
   void AddObject(const ObjectDelta& object) {
     v1::ObjectDelta* proto = part_.add_objects();
     proto->set_object_id(object.id);
     proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
+    proto->set_older_ids_told_ns(ToNanoseconds(object.older_ids_told));
     for (const StampedPose& entry : object.history) {
       proto->add_history_ns(ToNanoseconds(entry.stamp));
       Append(entry.T_W_O, proto->mutable_history_world_from_object());
@@ -98,6 +110,7 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   ObjectDelta object;
   object.id = proto.object_id();
   object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
+  object.older_ids_told = read.Stamp("older_ids_told_ns", true, proto.older_ids_told_ns());
   const std::vector<Pose> poses = read.Poses(
       "history_world_from_object", proto.history_world_from_object(), proto.history_ns_size());
   for (int i = 0; i < proto.history_ns_size() && read.ok(); ++i) {
@@ -140,11 +153,13 @@ bool WriteDelta(const SceneDelta& delta,
 absl::Status DeltaAssembler::Begin(const v1::SceneDeltaPart& part) {
   delta_ = {};
   objects_.clear();
+  dynamic_.clear();
   FieldReader read;
   delta_.from_version = part.from_version();
   delta_.to_version = part.to_version();
   delta_.stamp = read.Stamp("stamp_ns", true, part.stamp_ns());
   if (!read.ok()) return read.status();
+  if (part.dynamic_changed()) delta_.dynamic_W.emplace();
   if (!part.has_params()) return absl::OkStatus();
   absl::StatusOr<SceneParams> params = ReadSceneParams("params", part.params());
   if (params.ok()) delta_.params = *std::move(params);
@@ -185,6 +200,15 @@ absl::Status DeltaAssembler::AddMaps(const v1::SceneDeltaPart& part) {
   return absl::OkStatus();
 }
 
+absl::Status DeltaAssembler::AddDynamic(const v1::SceneDeltaPart& part) {
+  FieldReader read;
+  for (const v1::DynamicVoxels& proto : part.dynamic()) {
+    read.Require(delta_.dynamic_W.has_value(), "dynamic", "is said not to differ");
+    ReadDynamic(proto, delta_.stamp, read, dynamic_);
+  }
+  return read.ok() ? absl::OkStatus() : read.status();
+}
+
 absl::StatusOr<std::optional<SceneDelta>> DeltaAssembler::Add(const v1::SceneDeltaPart& part) {
   if (part.part() != next_part_ ||
       (next_part_ > 0 &&
@@ -197,10 +221,12 @@ absl::StatusOr<std::optional<SceneDelta>> DeltaAssembler::Add(const v1::SceneDel
   }
   if (absl::Status status = AddObjects(part); !status.ok()) return status;
   if (absl::Status status = AddMaps(part); !status.ok()) return status;
+  if (absl::Status status = AddDynamic(part); !status.ok()) return status;
   ++next_part_;
   if (!part.last()) return std::nullopt;
   next_part_ = 0;
   objects_.clear();
+  if (delta_.dynamic_W) delta_.dynamic_W = DynamicSpace(std::exchange(dynamic_, {}));
   return std::optional<SceneDelta>(std::move(delta_));
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/scene/scene_delta.h"
@@ -33,9 +34,11 @@ class DeltaAssembler {
   absl::Status Begin(const v1::SceneDeltaPart& part);
   absl::Status AddObjects(const v1::SceneDeltaPart& part);
   absl::Status AddMaps(const v1::SceneDeltaPart& part);
+  absl::Status AddDynamic(const v1::SceneDeltaPart& part);
 
   SceneDelta delta_;
   std::map<ObjectId, std::size_t> objects_;  // where each is in delta_.objects
+  std::vector<DynamicVoxel> dynamic_;
   std::uint32_t next_part_ = 0;
 };
 

@@ -158,6 +158,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_points_given(ack.report.points_given);
   report->set_objects_reidentified(ack.report.objects_reidentified);
   report->set_points_doubted(ack.report.points_doubted);
+  report->set_voxels_dynamic(ack.report.voxels_dynamic);
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -177,6 +178,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.points_given = report.points_given();
   ack.report.objects_reidentified = report.objects_reidentified();
   ack.report.points_doubted = report.points_doubted();
+  ack.report.voxels_dynamic = report.voxels_dynamic();
   return ack;
 }
 

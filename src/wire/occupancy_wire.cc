@@ -26,7 +26,7 @@ std::vector<SpaceStatus> ReadStatuses(const google::protobuf::RepeatedField<int>
 
 }  // namespace
 
-PointWriter::PointWriter(const Versioned& scene, std::size_t points,
+PointWriter::PointWriter(const Versioned& scene, bool any_dynamic, std::size_t points,
                          v1::GetPointOccupancyResponse* proto) {
   Write(scene, proto->mutable_scene());
   const int size = static_cast<int>(points);
@@ -36,23 +36,31 @@ PointWriter::PointWriter(const Versioned& scene, std::size_t points,
   statuses_ = proto->mutable_statuses()->mutable_data();
   object_ids_ = proto->mutable_object_ids()->mutable_data();
   fused_log_odds_ = proto->mutable_fused_log_odds()->mutable_data();
+  if (!any_dynamic) return;
+  proto->mutable_dynamic()->Resize(size, false);
+  dynamic_ = proto->mutable_dynamic()->mutable_data();
 }
 
 void PointWriter::Set(std::size_t i, const PointOccupancy& point) {
   statuses_[i] = ToProto(point.status);
   object_ids_[i] = point.object;
   fused_log_odds_[i] = point.fused_log_odds.value_or(kNone);
+  if (dynamic_ != nullptr) dynamic_[i] = point.dynamic;
 }
 
 absl::StatusOr<PointAnswers> ReadPoints(const v1::GetPointOccupancyResponse& proto) {
   const int size = proto.statuses_size();
-  if (proto.object_ids_size() != size || proto.fused_log_odds_size() != size) return Misfit();
+  const bool has_dynamic = proto.dynamic_size() > 0;
+  if (proto.object_ids_size() != size || proto.fused_log_odds_size() != size ||
+      (has_dynamic && proto.dynamic_size() != size)) {
+    return Misfit();
+  }
   PointAnswers answer;
   static_cast<Versioned&>(answer) = ReadVersion(proto.scene());
   answer.points.reserve(size);
   for (int i = 0; i < size; ++i) {
-    answer.points.push_back(
-        {ReadSpaceStatus(proto.statuses(i)), proto.object_ids(i), Value(proto.fused_log_odds(i))});
+    answer.points.push_back({ReadSpaceStatus(proto.statuses(i)), proto.object_ids(i),
+                             Value(proto.fused_log_odds(i)), has_dynamic && proto.dynamic(i)});
   }
   return answer;
 }

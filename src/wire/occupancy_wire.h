@@ -13,13 +13,16 @@ namespace clearway {
 // it.
 class PointWriter {
  public:
-  PointWriter(const Versioned& scene, std::size_t points, v1::GetPointOccupancyResponse* proto);
+  // `any_dynamic`: whether the scene has dynamic space.
+  PointWriter(const Versioned& scene, bool any_dynamic, std::size_t points,
+              v1::GetPointOccupancyResponse* proto);
   void Set(std::size_t i, const PointOccupancy& point);
 
  private:
   int* statuses_;
   std::int32_t* object_ids_;
   double* fused_log_odds_;
+  bool* dynamic_ = nullptr;  // null where nothing is
 };
 absl::StatusOr<PointAnswers> ReadPoints(const v1::GetPointOccupancyResponse& proto);
 

@@ -79,6 +79,8 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_object_pose_error_rad(params.object_pose_error_rad);
   proto->set_reidentify(params.reidentify);
   proto->set_filter_labels(params.filter_labels);
+  proto->set_dynamic_life_ns(params.dynamic_life.count());
+  proto->set_dynamic_settle_ns(params.dynamic_settle.count());
   proto->set_keep_distance_m(params.keep_distance_m);
   Write(params.bounds_W, proto->mutable_bounds_world());
   for (const Aabb& box : params.keep_out_W) Write(box, proto->add_keep_out_world());
@@ -111,6 +113,8 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.object_pose_error_rad = proto.object_pose_error_rad();
   params.reidentify = proto.reidentify();
   params.filter_labels = proto.filter_labels();
+  params.dynamic_life = Duration(proto.dynamic_life_ns());
+  params.dynamic_settle = Duration(proto.dynamic_settle_ns());
   params.keep_distance_m = proto.keep_distance_m();
   params.bounds_W = read.Box("bounds_world", proto.has_bounds_world(), proto.bounds_world());
   for (const v1::AxisAlignedBox& box : proto.keep_out_world()) {

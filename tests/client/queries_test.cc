@@ -57,6 +57,7 @@ TEST_F(QueriesTest, Points) {
     EXPECT_EQ(answer->points[i].status, truth[i].status);
     EXPECT_EQ(answer->points[i].object, truth[i].object);
     EXPECT_EQ(answer->points[i].fused_log_odds, truth[i].fused_log_odds);
+    EXPECT_EQ(answer->points[i].dynamic, truth[i].dynamic);
   }
 }
 

@@ -206,6 +206,22 @@ TEST(CommandLine, EvaluatesWithWrongLabels) {
   EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
 }
 
+TEST(CommandLine, EvaluatesWithoutLabels) {
+  const auto unlabelled = [](const std::string& life) {
+    const Finished dut = Clearway({"evaluate", "sim:street", "--frames", "40", "--unlabelled",
+                                   "1,2,3", "--dynamic-life", life, "--json"});
+    return nlohmann::json::parse(dut.out)["unlabelled"];
+  };
+  const auto without = unlabelled("0"), with = unlabelled("0.5");
+  EXPECT_LT(without["occupied_at_once"], 0.5) << without;
+  EXPECT_GT(with["occupied_at_once"], 0.8) << with;
+  EXPECT_LT(with["mean_trail_voxels"], without["mean_trail_voxels"]) << with;
+  EXPECT_GT(with["dynamic_voxels"], 0);
+  EXPECT_EQ(without["dynamic_voxels"], 0);
+  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1"});
+  EXPECT_THAT(text.out, HasSubstr("movers that were not labelled"));
+}
+
 TEST(CommandLine, EvaluatesWhatIsKnownAgain) {
   const auto identities = [](std::vector<std::string> flags) {
     flags.insert(flags.begin(), {"evaluate", "sim:occlusions", "--seed", "5", "--frames", "60",

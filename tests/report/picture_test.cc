@@ -94,6 +94,16 @@ TEST(TopView, AMovingObjectHasItsOwnColour) {
   EXPECT_NE(PixelAt(before, -2.6, 0.05), PixelAt(dut, -2.6, 0.05));
 }
 
+TEST(TopView, DynamicSpaceHasAColourOfItsOwn) {
+  SceneSnapshot scene = TestScene();
+  const VoxelKey key = scene.static_map_W.grid().KeyOf({0.05, 0.05, 0.05});
+  scene.static_map_W.Set(key, 4000);
+  scene.dynamic_W = DynamicSpace({{key, scene.stamp, scene.stamp}});
+  const Picture dut = TopViewOf(scene, {});
+  EXPECT_EQ(PixelAt(dut, 0.05, 0.05), palette::kDynamic.Rgb24());
+  EXPECT_EQ(PixelAt(dut, 0.25, 0.05), report::HeightColor(0, 3).Rgb24());
+}
+
 TEST(TopView, PredictionsAndPathsShareTheColourOfTheirTime) {
   SceneSnapshot scene = TestScene();
   MovingObject object = *scene.objects[0];

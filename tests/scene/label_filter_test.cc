@@ -132,6 +132,69 @@ TEST_F(LabelFilter, DoubtsWrongOnesAndThemAlone) {
   EXPECT_LT(good, 20 * truth.labels.size() / 400);
 }
 
+// Points so near the sensor that their direction can hardly be told.
+TEST_F(LabelFilter, TakesPointsAtTheSensor) {
+  Frame frame = Scan(0, Street());
+  AddPoint(frame, kCar, {1e-40, 0, 0});
+  AddPoint(frame, kStaticLabel, {0, -1e-41, 0});
+  AddPoint(frame, kCar, {1e-38, 1e-38, -1e-45});
+  params_.filter_labels = true;
+  EXPECT_TRUE(SceneBuilder(params_, {}, pool_).Apply(frame).ok());
+}
+
+// Far away, with few beams, an object has few points, and nothing around them.
+TEST_F(LabelFilter, LeavesObjectsThatAreSparselySeen) {
+  for (const double turn_rad : {0.0, 0.6, std::numbers::pi / 4, 2.0, -2.4}) {
+    const Pose turn(Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ())),
+                    Eigen::Vector3d::Zero());
+    Frame frame = FrameAt(0);
+    for (int beam = 0; beam < 6; ++beam) {
+      for (int column = 0; column < 2; ++column) {
+        AddPoint(frame, kCar, turn * Eigen::Vector3d(20, 0.14 * column, 0.7 * beam - 2));
+      }
+    }
+    EXPECT_TRUE(Filtered(frame).indices.empty()) << turn_rad;
+  }
+}
+
+// Of an object that is known, even less is believed, but where it is.
+TEST_F(LabelFilter, BelievesAGlimpseOfWhatIsKnown) {
+  params_.filter_labels = true;
+  const auto points_of_glimpse = [&](double y_m) {
+    SceneBuilder builder(params_, {}, pool_);
+    for (int k = 0; k < 4; ++k) EXPECT_TRUE(builder.Apply(Scan(0.1 * k, Street())).ok());
+    Frame frame = FrameAt(0.4);
+    for (const double z_m : {-1.5, -0.9, -0.3}) AddPoint(frame, kCar, {8, y_m, z_m});
+    EXPECT_TRUE(builder.Apply(frame).ok());
+    const MovingObject& car = *builder.Publish()->FindObject(kCar);
+    return car.last_seen == frame.stamp;
+  };
+  EXPECT_TRUE(points_of_glimpse(0.5));
+  EXPECT_FALSE(points_of_glimpse(20));
+}
+
+// As a depth camera sees: many points in each direction.
+TEST_F(LabelFilter, FindsWrongLabelsAmongManyPoints) {
+  Random random(3);
+  Frame frame = FrameAt(0);
+  std::set<std::size_t> changed;
+  for (double y_m = -0.5; y_m < 0.5; y_m += 0.004) {
+    for (double z_m = -0.3; z_m < 0.3; z_m += 0.004) {
+      ObjectId label = y_m < 0 ? kStaticLabel : kCar;
+      if (random.Integer(0, 49) == 0) {
+        label = label == kCar ? kStaticLabel : kCar;
+        changed.insert(frame.points_S.size());
+      }
+      AddPoint(frame, label, {3, y_m, z_m});
+    }
+  }
+  const Outcome outcome = Filtered(frame);
+  std::size_t found = 0;
+  for (const std::size_t i : outcome.indices) found += changed.contains(i);
+  EXPECT_GT(found, 0.9 * static_cast<double>(changed.size()));
+  EXPECT_LT(outcome.indices.size() - found, frame.labels.size() / 100);
+}
+
 // Their rays clear what is before them, and they hit nothing.
 TEST_F(LabelFilter, DoubtedPointsBlockTheirRays) {
   Frame frame = Scan(0, Street());

@@ -14,6 +14,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing_support::AddObject;
+using testing_support::AddPoint;
 using testing_support::At;
 using testing_support::BoxSurface;
 using testing_support::FrameAt;
@@ -172,6 +173,122 @@ TEST_F(OtherIds, AreNotTakenWhileTheSourceFollowsTheFirst) {
     Apply(frame);
   }
   EXPECT_EQ(scene().objects.size(), 2u);
+}
+
+// 9 could be 5 or 6; 11 can only be 9.
+TEST_F(OtherIds, OfAChainOfThreeAreNotLost) {
+  for (const auto& [second, third] : {std::pair(9, 11), {20, 10}}) {
+    SetUp();
+    const auto see = [&](int from, int until, auto&& add) {
+      for (int k = from; k < until; ++k) {
+        Frame frame = FrameAt(k * kPeriod_s);
+        add(frame, k * kPeriod_s, k == from);
+        Apply(frame);
+      }
+    };
+    see(0, 20, [&](Frame& frame, double t, bool first) {
+      See(frame, 5, t, first);
+      See(frame, 6, t, first, 0.6);
+    });
+    see(64, 68, [&](Frame& frame, double t, bool first) { See(frame, second, t, first, 0.3); });
+    see(68, 72, [](Frame&, double, bool) {});
+    see(72, 76, [&](Frame& frame, double t, bool first) { See(frame, third, t, first, 0.3); });
+    see(76, 78, [](Frame&, double, bool) {});
+    // Now 9 can only be 5, in the frame in which 11 is found to be 9.
+    see(78, 100, [&](Frame& frame, double t, bool first) { See(frame, 6, t, first, 30); });
+    for (const ObjectId id : {5, 6, second, third})
+      EXPECT_NE(scene().FindObject(id), nullptr) << id;
+    EXPECT_NE(scene().FindObject(5), scene().FindObject(6));
+  }
+}
+
+// After the lifetime of objects an id may be another object's, as it may without this.
+TEST_F(OtherIds, LapseWhenTheyWereNotToldForLong) {
+  LoseAndSeeAgain();
+  SeeFor(12, 6, 20);
+  ASSERT_THAT(scene().FindObject(12)->also, ElementsAre(9, 12));
+  for (double t = 20; t < 21; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    See(frame, 12, t, t == 20);
+    AddObject(frame, 9, Pose::Translation(0, 30, 0), kCar);
+    Apply(frame);
+  }
+  ASSERT_EQ(scene().objects.size(), 2u);
+  EXPECT_EQ(dropped_, 0u);
+  const MovingObject &first = *scene().FindObject(12), &other = *scene().FindObject(9);
+  EXPECT_EQ(first.id, 12);
+  EXPECT_EQ(first.first_seen, At(0));
+  EXPECT_TRUE(first.also.empty());
+  EXPECT_EQ(other.first_seen, At(20));
+  EXPECT_LT(other.observed_box_O.Size().norm(), 6);
+  EXPECT_EQ(scene().FindObject(5), nullptr);
+}
+
+TEST_F(OtherIds, DoNotLapseWhileTheyAreTold) {
+  LoseAndSeeAgain();
+  SeeFor(5, 4.5, 20);
+  SeeFor(9, 20, 21);
+  ASSERT_EQ(scene().objects.size(), 1u);
+  EXPECT_THAT(scene().objects[0]->also, ElementsAre(9));
+}
+
+// A wrong label or two.
+TEST_F(OtherIds, DoNotPartForAStrayPoint) {
+  LoseAndSeeAgain();
+  Frame frame = FrameAt(4.5);
+  See(frame, 9, 4.5, false);
+  AddPoint(frame, 5, {20, 20, 0});
+  Apply(frame);
+  ASSERT_EQ(scene().objects.size(), 1u);
+  EXPECT_EQ(dropped_, 0u);
+  EXPECT_LT(scene().objects[0]->observed_box_O.Size().norm(), 6);
+}
+
+// Of another sensor, which does not see the object.
+TEST_F(OtherIds, WaitAsLongWhateverFramesComeBetween) {
+  SeeFor(5, 0, 2);
+  double joined_s = 0;
+  for (int k = 0; k < 10; ++k) {
+    const double t = 3.5 + k * kPeriod_s;
+    Frame frame = FrameAt(t);
+    See(frame, 9, t, k == 0);
+    Apply(frame);
+    Apply(FrameAt(t + 0.05));
+    if (reidentified_ > 0 && joined_s == 0) joined_s = t;
+  }
+  EXPECT_NEAR(joined_s, 4.1, 0.05);
+}
+
+TEST_F(OtherIds, TakeTheirStatedFutureAlong) {
+  SeeFor(5, 0, 2);
+  SeeFor(9, 3.5, 3.9);
+  const Pose stop = scene().FindObject(9)->history.back().T_W_O;
+  ASSERT_TRUE(dut_->SetFuture(9, {{At(5), stop}, {At(6), stop}}).ok());
+  Frame frame = FrameAt(3.9);
+  for (double t = 3.9; t < 4.3; t += kPeriod_s) {
+    frame = FrameAt(t);
+    See(frame, 9, t, false);
+    Apply(frame);
+  }
+  ASSERT_EQ(reidentified_, 1u);
+  const MovingObject& object = *scene().FindObject(9);
+  EXPECT_EQ(object.id, 5);
+  ASSERT_EQ(object.future.size(), 2u);
+  const Pose T_W_O = PredictPose(object, At(6), params_.horizon).T_W_O;
+  EXPECT_LT((T_W_O.translation - Driving(3.8).translation).norm(), 0.3);
+  EXPECT_EQ(object.LastVelocity(), Twist{});
+}
+
+TEST_F(OtherIds, AreNamedByTheirFieldWhenAnObjectIsTooFar) {
+  FrameLimits limits;
+  limits.max_coordinate_m = 100;
+  dut_.emplace(params_, limits, pool_);
+  LoseAndSeeAgain();
+  Frame frame = FrameAt(4.5);
+  frame.motions.push_back({9, Pose::Translation(90, 0, 0), At(4.4)});
+  const auto report = dut_->Apply(frame);
+  EXPECT_THAT(std::string(report.status().message()),
+              testing::HasSubstr("motions[0].world_motion"));
 }
 
 TEST_F(OtherIds, TravelWithDifferences) {

@@ -108,6 +108,47 @@ TEST_F(Reidentification, JoinedLongAfterItWasSeenItHasItsLastPose) {
   EXPECT_EQ(dut.t_k(), young.t_k());
 }
 
+// Whatever lever arm there is between the two frames, and however fast it turns.
+TEST_F(Reidentification, JoinedItMovesAsItDid) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  const Pose T_Y_L(Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY())),
+                   {0.5, -1.5, 0.2});
+  for (const double turn_radps : {0.0, 1.0, 3.5, 5.0}) {
+    young.velocity_O = Twist{{0.1, 0, turn_radps}, {8, 1, 0}};
+    const MovingObject dut = Joined(lost, young, T_Y_L, young.t_k(), params_, pool_);
+    constexpr double kAhead_s = 0.1;
+    const Pose expected = Exp(kAhead_s * *young.velocity_O) * T_Y_L;
+    const Pose found = T_Y_L * Exp(kAhead_s * *dut.velocity_O);
+    EXPECT_LT((found.translation - expected.translation).norm(), 1e-9) << turn_radps;
+    EXPECT_LT(found.rotation.angularDistance(expected.rotation), 1e-9) << turn_radps;
+  }
+}
+
+TEST_F(Reidentification, JoinedItGoesByAllIdsOfBoth) {
+  MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  lost.also = {7};
+  lost.older_ids_told = At(1);
+  young.also = {11};
+  young.older_ids_told = At(3.7);
+  const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
+  const MovingObject dut = Joined(lost, young, T_Y_L, young.t_k(), params_, pool_);
+  EXPECT_EQ(dut.also, (std::vector<ObjectId>{7, 9, 11}));
+  EXPECT_EQ(dut.older_ids_told, At(3.7));
+  young.also.clear();
+  young.older_ids_told = {};
+  EXPECT_EQ(Joined(lost, young, T_Y_L, young.t_k(), params_, pool_).older_ids_told, lost.t_k());
+}
+
+TEST_F(Reidentification, JoinedItsPredictedPosesAreNoWitnesses) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
+  young.tracked_since = At(3.8);
+  const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
+  EXPECT_EQ(Joined(lost, young, T_Y_L, young.t_k(), params_, pool_).tracked_since, At(3.8));
+}
+
 TEST_F(Reidentification, JoinedItHasBothViewsAndBothTracks) {
   const MovingObject lost = Seen(5, 0, 2, Half(kCar, -1));
   const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));

@@ -203,6 +203,8 @@ TEST(SceneWire, ParamsComeBack) {
   params.object_pose_error_rad = 0.05;
   params.reidentify = true;
   params.filter_labels = true;
+  params.dynamic_life = std::chrono::milliseconds(400);
+  params.dynamic_settle = std::chrono::seconds(3);
   params.keep_distance_m = 40;
   params.bounds_W = {{-1, -2, -3}, {4, 5, 6}};
   params.keep_out_W = {{{0, 0, 0}, {1, 1, 1}}};

@@ -26,6 +26,8 @@ class ScanUpdate {
     block.hit.Set(IndexInBlock(key));
     block.end.Set(IndexInBlock(key));
   }
+  // Takes a hit back: a ray ended there, and that is all.
+  void TakeHit(VoxelKey key) { BlockFor(BlockOf(key)).hit.Clear(IndexInBlock(key)); }
   void MarkEnd(BlockKey key, const BlockMask& mask) { BlockFor(key).end |= mask; }
   void MarkEnd(VoxelKey key) { BlockFor(BlockOf(key)).end.Set(IndexInBlock(key)); }
 

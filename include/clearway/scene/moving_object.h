@@ -69,6 +69,9 @@ struct MovingObject {
   // Others under which it was seen again after it had been lost (SceneParams::reidentify), the
   // newest last. They name it as well.
   std::vector<ObjectId> also;
+  // Of such an object: when a frame last named it by another id than the newest. After the object
+  // lifetime a frame that uses one of those means another object by it.
+  Time older_ids_told;
   VoxelMap map_O{0.1};  // hits in O
   // Of a given object, which was told and not seen (see given_object.h): in O, never a
   // TriangleMesh. Null for a reconstructed one.

@@ -16,7 +16,9 @@ struct PointOccupancy {
   // zone).
   ObjectId object = kStaticLabel;
   // Sum of the log-odds of every map that has observed the point (II-E); none if no map has.
-  std::optional<double> fused_log_odds;
+  std::optional<double> fused_log_odds = {};
+  // Whether it is the static map's dynamic space that occupies the point.
+  bool dynamic = false;
 };
 
 // Every moving object of a snapshot placed at one time. Immutable; any thread may read it. It must

@@ -15,6 +15,8 @@
 
 namespace clearway {
 
+struct LabelledCloud;
+
 // What became of a frame.
 struct FrameReport {
   std::size_t points_used = 0;
@@ -31,6 +33,8 @@ struct FrameReport {
   std::size_t points_given = 0;
   // Of those used, the ones whose label is doubted (SceneParams::filter_labels): likewise.
   std::size_t points_doubted = 0;
+  // In the scene after the frame (SceneParams::dynamic_life).
+  std::size_t voxels_dynamic = 0;
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at
@@ -82,6 +86,8 @@ class SceneBuilder {
 
  private:
   absl::Status CheckFits(const Frame& frame) const;
+  // Updates the static map by a scan. Returns what is dynamic in it then.
+  DynamicSpace CastIntoStatic(const LabelledCloud& cloud, Time stamp, VoxelMap& static_map_W);
   // Takes over what `change` made of the scene's objects, unless it failed.
   absl::Status ChangeObjects(
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);

@@ -27,6 +27,7 @@ using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
 struct ObjectDelta {
   ObjectId id = 0;
   std::vector<ObjectId> also;
+  Time older_ids_told;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::vector<StampedPose> history;
   std::vector<StampedPose> future;
@@ -54,8 +55,9 @@ struct SceneDelta {
   Time stamp;
   std::optional<SceneParams> params;  // when from_version is 0 or they changed
   MapDelta static_map_W;
-  std::vector<ObjectDelta> objects;  // ascending ids
-  std::vector<ObjectId> removed;     // ascending ids
+  std::optional<DynamicSpace> dynamic_W;  // when it differs
+  std::vector<ObjectDelta> objects;       // ascending ids
+  std::vector<ObjectId> removed;          // ascending ids
 };
 
 // How much of the voxels a delta tells.

@@ -54,6 +54,14 @@ struct SceneParams {
   // where it is predicted to be. Their rays clear free space, and they hit nothing.
   bool filter_labels = false;
 
+  // Dynamic space: voxels of the static map that were known free for long (their log-odds at the
+  // lower clamp) and are hit, a few together and away from surfaces. Something moves there that
+  // nobody labelled. They are occupied at once and stay out of the static map for good: free again
+  // as soon as a ray passes, unknown when not hit for longer than `dynamic_life`, and static when
+  // hit for `dynamic_settle`. A life of 0: they are hit as other voxels are.
+  Duration dynamic_life{};
+  Duration dynamic_settle = std::chrono::seconds(2);
+
   // Rolling window: after each frame the static map forgets the blocks of 8 x 8 x 8 voxels that lie
   // farther than this from the sensor along an axis, so that its memory stays bounded on a drive of
   // any length. Parts of a prior map are forgotten likewise, and a frame from a wrong place forgets

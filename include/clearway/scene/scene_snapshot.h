@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clearway/scene/dynamic_space.h"
 #include "clearway/scene/moving_object.h"
 
 namespace clearway {
@@ -30,10 +31,14 @@ struct SceneSnapshot {
   Time stamp;  // of the newest frame in it
   SceneParams params;
   VoxelMap static_map_W{0.1};
+  DynamicSpace dynamic_W;  // what of the static map is occupied for a while only
   std::vector<std::shared_ptr<const MovingObject>> objects;  // ascending ids
 
   // The version without a frame.
   static SceneSnapshot Empty(const SceneParams& params);
+
+  // The static map without dynamic space: what was known free for long before is free.
+  VoxelMap LastingMap() const;
 
   // By any of its ids; null if there is none.
   const MovingObject* FindObject(ObjectId id) const;

@@ -43,6 +43,7 @@ int main() {
     params.object_pose_error_m = variant ? 0.1 : 0;
     params.reidentify = variant;
     params.filter_labels = variant;
+    params.dynamic_life = std::chrono::milliseconds(variant ? 500 : 0);
     params.keep_distance_m = variant ? 3 : 0;
     ThreadPool pool(2);
     SceneBuilder builder(params, {}, pool);

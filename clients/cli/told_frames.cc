@@ -1,0 +1,59 @@
+#include "cli/told_frames.h"
+
+#include "clearway/report/true_ids.h"
+#include "clearway/sim/missed_objects.h"
+#include "clearway/sim/wrong_labels.h"
+#include "cli/cli.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;  // of wrong labels
+
+}  // namespace
+
+void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
+  const char* const group = "Errors of the source";
+  command
+      ->add_option("--wrong-labels", flags->wrong_labels,
+                   "Give this share of the points a wrong label")
+      ->check(Between(0, 1))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--forget", flags->forget_s,
+                   "Give objects that were out of sight for so many seconds\na new id")
+      ->check(Between(0, 1000))
+      ->group(group);
+  command
+      ->add_option("--unlabelled", flags->unlabelled,
+                   "Take the objects of these ids for a part of the static\nworld")
+      ->check(CLI::Range(1, 1'000'000'000).description(""))
+      ->delimiter(',')
+      ->type_name("ID,...")
+      ->group(group);
+}
+
+FrameTeller::FrameTeller(const ErrorFlags& flags)
+    : wrong_labels_(flags.wrong_labels),
+      unlabelled_(flags.unlabelled.begin(), flags.unlabelled.end()) {
+  if (flags.forget_s) tracker_.emplace(FromSeconds(*flags.forget_s));
+}
+
+Frame FrameTeller::Tell(const Frame& frame) {
+  Frame told = WithoutObjects(frame, unlabelled_);
+  if (tracker_) told = tracker_->Retold(std::move(told));
+  return WithWrongLabels(std::move(told), wrong_labels_, kSeed);
+}
+
+ScenePtr FrameTeller::WithTrueNames(const Frame& told, const ScenePtr& scene) {
+  if (!tracker_) return scene;
+  identities_.Add(told, *scene, tracker_->true_ids());
+  return WithTrueIds(*scene, tracker_->true_ids());
+}
+
+std::optional<Identities> FrameTeller::identities() const {
+  return tracker_ ? std::optional(identities_.Result()) : std::nullopt;
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,40 @@
+// Frames as sources with errors tell them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "CLI/CLI.hpp"
+#include "clearway/report/identity_score.h"
+#include "clearway/sim/forgetful_tracker.h"
+
+namespace clearway::cli {
+
+struct ErrorFlags {
+  double wrong_labels = 0;
+  std::optional<double> forget_s;
+  std::vector<ObjectId> unlabelled;
+};
+void AddErrorFlags(CLI::App* command, ErrorFlags* flags);
+
+// Retells frames with the errors of a segmentation and a tracker. One thread.
+class FrameTeller {
+ public:
+  explicit FrameTeller(const ErrorFlags& flags);
+
+  Frame Tell(const Frame& frame);
+  // After Apply: the version with objects under their true ids.
+  ScenePtr WithTrueNames(const Frame& told, const ScenePtr& scene);
+
+  // Where objects came back under new ids.
+  std::optional<Identities> identities() const;
+
+ private:
+  double wrong_labels_;
+  std::set<ObjectId> unlabelled_;
+  std::optional<ForgetfulTracker> tracker_;
+  IdentityScore identities_;
+};
+
+}  // namespace clearway::cli

@@ -1,0 +1,189 @@
+#include "scene/dynamic_hits.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <optional>
+
+#include "absl/container/flat_hash_map.h"
+
+namespace clearway {
+namespace {
+
+// Of a voxel that is dynamic: as after a hit on what could be either.
+LogOdds DynamicLogOdds(const OccupancyModel& model) { return model.AfterHit(model.occupied); }
+
+// Sets the voxels, in DynamicSpace's order, to the value, or makes them unknown.
+template <class Voxels, class KeyOf>
+void SetAll(const Voxels& voxels, KeyOf key_of, std::optional<LogOdds> value, VoxelMap& map) {
+  for (auto next = voxels.begin(); next != voxels.end();) {
+    const BlockKey key = BlockOf(key_of(*next));
+    const VoxelBlock* before = map.blocks().Find(key);
+    VoxelBlock block = before == nullptr ? VoxelBlock{} : *before;
+    for (; next != voxels.end() && BlockOf(key_of(*next)) == key; ++next) {
+      const int index = IndexInBlock(key_of(*next));
+      value ? block.Set(index, *value, map.model()) : block.Forget(index);
+    }
+    map.PutBlock(key, block);
+  }
+}
+
+VoxelKey KeyOf(const DynamicVoxel& voxel) { return voxel.key; }
+
+// The bits of eight from the first to the last.
+std::uint64_t Ones(std::int32_t first, std::int32_t last) {
+  return (std::uint64_t{2} << last) - (std::uint64_t{1} << first);
+}
+
+// How many bits are set among the voxels of the block from `min` to `max`, some of which are in it.
+int CountIn(BlockKey key, const BlockMask& mask, VoxelKey min, VoxelKey max) {
+  constexpr std::int32_t kLast = kBlockSize - 1;
+  const auto [x, y, z] = VoxelAt(key, 0);
+  const std::uint64_t row = Ones(std::max(min.x - x, 0), std::min(max.x - x, kLast));
+  std::uint64_t layer = 0;
+  for (int j = std::max(min.y - y, 0); j <= std::min(max.y - y, kLast); ++j) {
+    layer |= row << kBlockSize * j;
+  }
+  int count = 0;
+  for (int k = std::max(min.z - z, 0); k <= std::min(max.z - z, kLast); ++k) {
+    count += std::popcount(mask.words[k] & layer);
+  }
+  return count;
+}
+
+// How many bits are set at most two voxels away along each axis, the voxel's own too. mask_of(key)
+// is a block's mask, or null.
+template <class MaskOf>
+int CountAround(VoxelKey key, MaskOf&& mask_of) {
+  constexpr std::int32_t kReach = 2;
+  const VoxelKey min{key.x - kReach, key.y - kReach, key.z - kReach};
+  const VoxelKey max{key.x + kReach, key.y + kReach, key.z + kReach};
+  const BlockKey first = BlockOf(min), last = BlockOf(max);
+  int count = 0;
+  for (BlockKey block = first; block.z <= last.z; ++block.z) {
+    for (block.y = first.y; block.y <= last.y; ++block.y) {
+      for (block.x = first.x; block.x <= last.x; ++block.x) {
+        if (const BlockMask* mask = mask_of(block)) count += CountIn(block, *mask, min, max);
+      }
+    }
+  }
+  return count;
+}
+
+// By blocks.
+using Voxels = absl::flat_hash_map<BlockKey, BlockMask>;
+
+// The hits on voxels that are as free as the map can know them to be.
+Voxels HitsOnFree(const VoxelMap& map, const ScanUpdate& update) {
+  std::vector<BlockKey> keys;
+  std::vector<const BlockMask*> hits;
+  for (std::size_t i = 0; i < update.keys().size(); ++i) {
+    if (!update.block(i).hit.Any()) continue;
+    keys.push_back(update.keys()[i]);
+    hits.push_back(&update.block(i).hit);
+  }
+  std::vector<const VoxelBlock*> blocks(keys.size());
+  map.blocks().FindAll(keys, blocks.data());
+  Voxels on_free;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (blocks[i] == nullptr) continue;
+    BlockMask free = *hits[i];
+    free &= blocks[i]->observed;
+    free.Subtract(blocks[i]->occupied);
+    free.ForEach([&](int index) {
+      if (blocks[i]->log_odds[index] != map.model().clamp_min) free.Clear(index);
+    });
+    if (free.Any()) on_free.emplace(keys[i], free);
+  }
+  return on_free;
+}
+
+bool IsBesideSurface(const VoxelMap& map, VoxelKey key) {
+  return CountAround(key, [&](BlockKey block_key) {
+           const VoxelBlock* block = map.blocks().Find(block_key);
+           return block == nullptr ? nullptr : &block->occupied;
+         }) > 0;
+}
+
+// Whether there are a few more nearby.
+bool HasCompany(const Voxels& voxels, VoxelKey key) {
+  constexpr int kFewest = 3;  // itself too
+  return CountAround(key, [&](BlockKey block_key) {
+           const auto block = voxels.find(block_key);
+           return block == voxels.end() ? nullptr : &block->second;
+         }) >= kFewest;
+}
+
+bool IsPassed(const ScanUpdate& update, VoxelKey key) {
+  const ScanUpdate::Block* block = update.Find(BlockOf(key));
+  const int index = IndexInBlock(key);
+  return block != nullptr && block->free.Test(index) && !block->end.Test(index);
+}
+
+// The hits that dynamic space explains, in its order.
+std::vector<VoxelKey> DynamicHits(const VoxelMap& lasting_W, const ScanUpdate& update) {
+  const Voxels on_free = HitsOnFree(lasting_W, update);
+  std::vector<VoxelKey> hits;
+  for (const auto& [block, mask] : on_free) {
+    mask.ForEach([&, key = block](int index) {
+      const VoxelKey voxel = VoxelAt(key, index);
+      if (HasCompany(on_free, voxel) && !IsBesideSurface(lasting_W, voxel)) hits.push_back(voxel);
+    });
+  }
+  std::ranges::sort(hits, ComesBefore);
+  return hits;
+}
+
+}  // namespace
+
+VoxelMap WithoutDynamic(VoxelMap static_map_W, const DynamicSpace& dynamic_W) {
+  SetAll(dynamic_W.voxels(), KeyOf, static_map_W.model().clamp_min, static_map_W);
+  return static_map_W;
+}
+
+DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W, Time stamp,
+                              const SceneParams& params, ScanUpdate& update) {
+  DynamicChange change;
+  const std::vector<VoxelKey> hits = DynamicHits(lasting_W, update);
+  for (const VoxelKey key : hits) {
+    update.TakeHit(key);
+    const DynamicVoxel* before = dynamic_W.Find(key);
+    const DynamicVoxel voxel{key, before == nullptr ? stamp : before->first_hit, stamp};
+    if (stamp - voxel.first_hit >= params.dynamic_settle) {
+      change.settled.push_back(key);
+    } else {
+      change.voxels.push_back(voxel);
+    }
+  }
+  const auto first_old = static_cast<std::ptrdiff_t>(change.voxels.size());
+  for (const DynamicVoxel& voxel : dynamic_W.voxels()) {
+    if (IsPassed(update, voxel.key) || std::ranges::binary_search(hits, voxel.key, ComesBefore)) {
+      continue;
+    }
+    if (stamp - voxel.last_hit > params.dynamic_life) {
+      change.lost.push_back(voxel.key);
+    } else {
+      change.voxels.push_back(voxel);
+    }
+  }
+  std::ranges::inplace_merge(change.voxels, change.voxels.begin() + first_old, ComesBefore, KeyOf);
+  return change;
+}
+
+DynamicSpace PutDynamic(DynamicChange change, VoxelMap& static_map_W) {
+  const LogOdds occupied = DynamicLogOdds(static_map_W.model());
+  SetAll(change.voxels, KeyOf, occupied, static_map_W);
+  SetAll(change.settled, std::identity(), occupied, static_map_W);
+  SetAll(change.lost, std::identity(), std::nullopt, static_map_W);
+  return DynamicSpace(std::move(change.voxels));
+}
+
+DynamicSpace StillIn(const VoxelMap& static_map_W, const DynamicSpace& dynamic_W) {
+  const LogOdds occupied = DynamicLogOdds(static_map_W.model());
+  std::vector<DynamicVoxel> still(dynamic_W.voxels().begin(), dynamic_W.voxels().end());
+  const std::size_t gone = std::erase_if(
+      still, [&](const DynamicVoxel& v) { return static_map_W.Find(v.key) != occupied; });
+  return gone == 0 ? dynamic_W : DynamicSpace(std::move(still));
+}
+
+}  // namespace clearway

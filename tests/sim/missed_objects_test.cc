@@ -1,0 +1,25 @@
+#include "clearway/sim/missed_objects.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace clearway {
+namespace {
+
+TEST(MissedObjects, ArePartOfTheStaticWorld) {
+  Frame frame;
+  frame.labels = {0, 3, 4, 3, kIgnoreLabel, 5};
+  frame.points_S.resize(frame.labels.size());
+  frame.motions = {{3, {}, {}}, {4, {}, {}}};
+  frame.poses = {{5, {}}, {6, {}}};
+  const Frame dut = WithoutObjects(frame, {3, 5});
+  EXPECT_THAT(dut.labels, testing::ElementsAre(0, 0, 4, 0, kIgnoreLabel, 0));
+  ASSERT_EQ(dut.motions.size(), 1u);
+  EXPECT_EQ(dut.motions[0].id, 4);
+  ASSERT_EQ(dut.poses.size(), 1u);
+  EXPECT_EQ(dut.poses[0].id, 6);
+  EXPECT_EQ(WithoutObjects(frame, {}).labels, frame.labels);
+}
+
+}  // namespace
+}  // namespace clearway
