@@ -1,6 +1,9 @@
 #include "cli/told_frames.h"
 
+#include <numbers>
+
 #include "clearway/report/true_ids.h"
+#include "clearway/sim/bleeding_masks.h"
 #include "clearway/sim/missed_objects.h"
 #include "clearway/sim/wrong_labels.h"
 #include "cli/cli.h"
@@ -21,6 +24,12 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
       ->capture_default_str()
       ->group(group);
   command
+      ->add_option("--mask-bleed", flags->mask_bleed_deg,
+                   "Give what is seen within so many degrees of an object its\nlabel")
+      ->check(Between(0, 20))
+      ->capture_default_str()
+      ->group(group);
+  command
       ->add_option("--forget", flags->forget_s,
                    "Give objects that were out of sight for so many seconds\na new id")
       ->check(Between(0, 1000))
@@ -36,12 +45,13 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
 
 FrameTeller::FrameTeller(const ErrorFlags& flags)
     : wrong_labels_(flags.wrong_labels),
+      mask_bleed_rad_(flags.mask_bleed_deg * std::numbers::pi / 180),
       unlabelled_(flags.unlabelled.begin(), flags.unlabelled.end()) {
   if (flags.forget_s) tracker_.emplace(FromSeconds(*flags.forget_s));
 }
 
 Frame FrameTeller::Tell(const Frame& frame) {
-  Frame told = WithoutObjects(frame, unlabelled_);
+  Frame told = WithBleedingMasks(WithoutObjects(frame, unlabelled_), mask_bleed_rad_);
   if (tracker_) told = tracker_->Retold(std::move(told));
   return WithWrongLabels(std::move(told), wrong_labels_, kSeed);
 }

@@ -13,6 +13,7 @@ namespace clearway::cli {
 
 struct ErrorFlags {
   double wrong_labels = 0;
+  double mask_bleed_deg = 0;
   std::optional<double> forget_s;
   std::vector<ObjectId> unlabelled;
 };
@@ -31,7 +32,7 @@ class FrameTeller {
   std::optional<Identities> identities() const;
 
  private:
-  double wrong_labels_;
+  double wrong_labels_, mask_bleed_rad_;
   std::set<ObjectId> unlabelled_;
   std::optional<ForgetfulTracker> tracker_;
   IdentityScore identities_;

@@ -206,6 +206,16 @@ TEST(CommandLine, EvaluatesWithWrongLabels) {
   EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
 }
 
+TEST(CommandLine, EvaluatesWithMasksThatAreTooLarge) {
+  const auto worst_m = [](const std::string& degrees) {
+    const Finished dut =
+        Clearway({"evaluate", "sim:small", "--frames", "10", "--mask-bleed", degrees, "--json"});
+    const auto json = nlohmann::json::parse(dut.out);
+    return json["objects"][0]["size"]["worst_difference_m"].get<double>();
+  };
+  EXPECT_GT(worst_m("2"), worst_m("0") + 0.2);
+}
+
 TEST(CommandLine, EvaluatesWithoutLabels) {
   const auto unlabelled = [](const std::string& life) {
     const Finished dut = Clearway({"evaluate", "sim:street", "--frames", "40", "--unlabelled",
