@@ -71,7 +71,8 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
       absl::StrCat(folder.string(),
                    ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
                    "sequence is named by the folder of its scans, training/velodyne/NNNN; a TUM "
-                   "RGB-D sequence has a depth.txt)"));
+                   "RGB-D sequence has a depth.txt, a folder of DynoSAM's logs a "
+                   "*_camera_pose_log.csv)"));
 }
 
 }  // namespace
