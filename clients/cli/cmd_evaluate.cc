@@ -105,8 +105,7 @@ void AddEvaluate(Cli& cli) {
   command
       ->add_option("input", flags->spec,
                    "A folder of LiDAR scans with boxes, a KITTI or TUM RGB-D\nsequence with poses "
-                   "of objects, or "
-                   "sim:NAME: they know\nthe truth")
+                   "of objects, DynoSAM's logs, or\nsim:NAME: they know the truth")
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))

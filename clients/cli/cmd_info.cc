@@ -52,10 +52,10 @@ void AddInfo(Cli& cli) {
   CLI::App* command = AddCommand(cli, "info", "Show what a recording, folder or map holds",
                                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
   command
-      ->add_option("input", flags->spec,
-                   "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, an "
-                   "OctoMap file (.bt, "
-                   ".ot), or sim:NAME")
+      ->add_option(
+          "input", flags->spec,
+          "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, DynoSAM's "
+          "logs, an OctoMap file (.bt, .ot), or\nsim:NAME")
       ->required();
   command
       ->add_option("--poses", flags->source.poses,

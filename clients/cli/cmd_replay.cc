@@ -169,10 +169,9 @@ void AddReplay(Cli& cli) {
   CLI::App* command = AddCommand(cli, "replay", "Send frames to the server", kExamples,
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
   command
-      ->add_option(
-          "source", flags->spec,
-          "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, or sim:NAME (a "
-          "scenario of 'simulate')")
+      ->add_option("source", flags->spec,
+                   "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, "
+                   "DynoSAM's logs, or sim:NAME (a scenario of\n'simulate')")
       ->required();
   command
       ->add_option(

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/dynosam.h"
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
 #include "clearway/io/tum_rgbd.h"
@@ -109,7 +110,9 @@ SourceKind KindOf(const std::string& spec) {
   if (spec.starts_with(kSimulationPrefix)) return SourceKind::kSimulation;
   const std::filesystem::path path(spec);
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return SourceKind::kLidarFolder;
+  if (std::filesystem::is_directory(path, error) || IsDynosam(path)) {
+    return SourceKind::kLidarFolder;
+  }
   const std::string extension = path.extension().string();
   if (extension == ".bt" || extension == ".ot") return SourceKind::kOctomap;
   return SourceKind::kRecording;
@@ -137,6 +140,10 @@ absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceF
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points) {
   if (IsTumRgbd(path)) return OpenTum(path, flags, allow_missing_points);
+  if (IsDynosam(path)) {
+    return OpenDynosam(path, {.objects = LidarObjectsOf(flags.objects),
+                              .allow_missing_points = allow_missing_points});
+  }
   LidarFolderOptions options;
   options.poses = LidarPosesOf(flags.poses);
   options.objects = LidarObjectsOf(flags.objects);

@@ -42,7 +42,8 @@ SourceKind KindOf(const std::string& spec);
 // "sim:crossing", or "crossing"; NOT_FOUND lists the scenarios.
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags);
 
-// Of LiDAR scans, or a sequence of KITTI's tracking benchmark or TUM's RGB-D benchmark.
+// Of LiDAR scans, a sequence of KITTI's tracking benchmark or TUM's RGB-D benchmark, or DynoSAM's
+// logs.
 // `allow_missing_points`: as in LidarFolderOptions.
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points);
