@@ -120,14 +120,18 @@ bool IsPassed(const ScanUpdate& update, VoxelKey key) {
   return block != nullptr && block->free.Test(index) && !block->end.Test(index);
 }
 
-// The hits that dynamic space explains, in its order.
-std::vector<VoxelKey> DynamicHits(const VoxelMap& lasting_W, const ScanUpdate& update) {
+// The hits that dynamic space explains, in its order: what is in it already, and what may be new.
+std::vector<VoxelKey> DynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W,
+                                  const ScanUpdate& update) {
   const Voxels on_free = HitsOnFree(lasting_W, update);
   std::vector<VoxelKey> hits;
   for (const auto& [block, mask] : on_free) {
     mask.ForEach([&, key = block](int index) {
       const VoxelKey voxel = VoxelAt(key, index);
-      if (HasCompany(on_free, voxel) && !IsBesideSurface(lasting_W, voxel)) hits.push_back(voxel);
+      if (dynamic_W.Find(voxel) != nullptr ||
+          (HasCompany(on_free, voxel) && !IsBesideSurface(lasting_W, voxel))) {
+        hits.push_back(voxel);
+      }
     });
   }
   std::ranges::sort(hits, ComesBefore);
@@ -144,11 +148,13 @@ VoxelMap WithoutDynamic(VoxelMap static_map_W, const DynamicSpace& dynamic_W) {
 DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W, Time stamp,
                               const SceneParams& params, ScanUpdate& update) {
   DynamicChange change;
-  const std::vector<VoxelKey> hits = DynamicHits(lasting_W, update);
+  const Duration longest_gap = params.dynamic_settle / 4;
+  const std::vector<VoxelKey> hits = DynamicHits(lasting_W, dynamic_W, update);
   for (const VoxelKey key : hits) {
     update.TakeHit(key);
     const DynamicVoxel* before = dynamic_W.Find(key);
-    const DynamicVoxel voxel{key, before == nullptr ? stamp : before->first_hit, stamp};
+    const bool goes_on = before != nullptr && stamp - before->last_hit <= longest_gap;
+    const DynamicVoxel voxel{key, goes_on ? before->first_hit : stamp, stamp};
     if (stamp - voxel.first_hit >= params.dynamic_settle) {
       change.settled.push_back(key);
     } else {
@@ -176,6 +182,12 @@ DynamicSpace PutDynamic(DynamicChange change, VoxelMap& static_map_W) {
   SetAll(change.settled, std::identity(), occupied, static_map_W);
   SetAll(change.lost, std::identity(), std::nullopt, static_map_W);
   return DynamicSpace(std::move(change.voxels));
+}
+
+DynamicSpace WithoutObserved(const DynamicSpace& dynamic_W, const VoxelMap& map_W) {
+  std::vector<DynamicVoxel> left(dynamic_W.voxels().begin(), dynamic_W.voxels().end());
+  std::erase_if(left, [&](const DynamicVoxel& v) { return map_W.Find(v.key).has_value(); });
+  return DynamicSpace(std::move(left));
 }
 
 DynamicSpace StillIn(const VoxelMap& static_map_W, const DynamicSpace& dynamic_W) {

@@ -20,16 +20,19 @@ struct DynamicChange {
   std::vector<VoxelKey> lost;        // not looked at for so long that nobody knows
 };
 
-// Takes the hits on what was known free for long out of the update, unless they are single ones or
-// next to a surface, where they come of noise. What the update's rays pass is dynamic no more.
-// `lasting_W`: the static map before the scan, WithoutDynamic.
+// Takes the hits on what was known free for long out of the update, unless they are new single ones
+// or new ones next to a surface, where they come of noise. What the update's rays pass is dynamic
+// no more. `lasting_W`: the static map before the scan, WithoutDynamic.
 DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W, Time stamp,
                               const SceneParams& params, ScanUpdate& update);
 
 // Puts the change into the static map after the scan, and returns what is dynamic in it.
 DynamicSpace PutDynamic(DynamicChange change, VoxelMap& static_map_W);
 
-// Dynamic space without what the static map has forgotten or was told anew.
+// Dynamic space without what another map has observed: that is known by now.
+DynamicSpace WithoutObserved(const DynamicSpace& dynamic_W, const VoxelMap& map_W);
+
+// Dynamic space without what the static map has forgotten.
 DynamicSpace StillIn(const VoxelMap& static_map_W, const DynamicSpace& dynamic_W);
 
 }  // namespace clearway

@@ -1,35 +1,62 @@
 #include "clearway/scene/moving_object.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
-#include <tuple>
+#include <array>
+#include <bit>
+#include <utility>
 
 #include "clearway/geometry/hull.h"
 
 namespace clearway {
 namespace {
 
+// A row of voxels along x, from the first to the last that is occupied.
+struct Row {
+  std::int32_t y, z, first_x, last_x;
+};
+
+// By y and z, each once.
+std::vector<Row> OccupiedRows(const VoxelMap& map) {
+  std::vector<Row> rows;
+  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    const auto [x, y, z] = VoxelAt(key, 0);
+    for (int line = 0; line < kBlockSize * kBlockSize; ++line) {
+      const int in_y = line % kBlockSize, in_z = line / kBlockSize;
+      const auto bits = static_cast<std::uint8_t>(block.occupied.words[in_z] >> kBlockSize * in_y);
+      if (bits == 0) continue;
+      rows.push_back({y + in_y, z + in_z, x + std::countr_zero(bits),
+                      x + kBlockSize - 1 - std::countl_zero(bits)});
+    }
+  });
+  std::ranges::sort(rows, {}, [](const Row& row) { return std::pair(row.y, row.z); });
+  std::size_t size = 0;
+  for (const Row& row : rows) {
+    if (size == 0 || rows[size - 1].y != row.y || rows[size - 1].z != row.z) {
+      rows[size++] = row;
+      continue;
+    }
+    Row& same = rows[size - 1];
+    same.first_x = std::min(same.first_x, row.first_x);
+    same.last_x = std::max(same.last_x, row.last_x);
+  }
+  rows.resize(size);
+  return rows;
+}
+
 // The occupied voxels' corners that a convex hull can have: the ends of each row along x. Integer
 // coordinates, so that the hull is computed on exact numbers.
 std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>> rows;
-  map.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
-    block.occupied.ForEach([&](int index) {
-      const VoxelKey key = VoxelAt(block_key, index);
-      const auto [row, fresh] = rows.try_emplace({key.y, key.z}, key.x, key.x);
-      row->second.first = std::min(row->second.first, key.x);
-      row->second.second = std::max(row->second.second, key.x);
-    });
-  });
-  std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> corners;
-  for (const auto& [yz, x_ends] : rows) {
-    for (int corner = 0; corner < 4; ++corner) {
-      const std::int32_t y = yz.first + (corner & 1), z = yz.second + (corner >> 1);
-      corners.emplace(x_ends.first, y, z);
-      corners.emplace(x_ends.second + 1, y, z);
+  std::vector<std::array<std::int32_t, 3>> corners;
+  for (const Row& row : OccupiedRows(map)) {
+    for (const std::int32_t z : {row.z, row.z + 1}) {
+      for (const std::int32_t y : {row.y, row.y + 1}) {
+        corners.push_back({row.first_x, y, z});
+        corners.push_back({row.last_x + 1, y, z});
+      }
     }
   }
+  std::ranges::sort(corners);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   std::vector<Eigen::Vector3d> points;
   points.reserve(corners.size());
   for (const auto& [x, y, z] : corners) points.emplace_back(x, y, z);

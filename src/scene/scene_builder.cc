@@ -127,8 +127,9 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     }
   }
   DynamicSpace dynamic_W = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
-  report.voxels_dynamic = dynamic_W.voxels().size();
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
+  dynamic_W = StillIn(static_map_W, dynamic_W);
+  report.voxels_dynamic = dynamic_W.voxels().size();
   for (const auto& [id, clue] : clues) {  // II-D
     const auto known = objects.find(id);
     std::optional<MovingObject> object =
@@ -144,7 +145,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
 
   scene_.static_map_W = std::move(static_map_W);
-  scene_.dynamic_W = StillIn(scene_.static_map_W, dynamic_W);
+  scene_.dynamic_W = std::move(dynamic_W);
   scene_.objects.clear();
   for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
   scene_.stamp = frame.stamp;
@@ -207,7 +208,7 @@ absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
     });
     scene_.static_map_W.PutBlock(key, block);
   });
-  scene_.dynamic_W = StillIn(scene_.static_map_W, scene_.dynamic_W);
+  scene_.dynamic_W = WithoutObserved(scene_.dynamic_W, prior_W);
   changed_ = true;
   return absl::OkStatus();
 }

@@ -140,6 +140,68 @@ TEST_F(DynamicSpaceOfScene, IsStaticOnceItHasStayed) {
   EXPECT_EQ(There(panel.Middle()).status, SpaceStatus::kOccupied);
 }
 
+// What is dynamic needs no company to stay so, and its own settled parts do not end it.
+TEST_F(DynamicSpaceOfScene, LastsAsLongAsItIsHit) {
+  KnowFree();
+  for (int i = 0; i < 10; ++i) Look(Panel{5, 0, 0.15});
+  std::vector<VoxelKey> late;
+  for (int i = 0; i < 30; ++i) {
+    Look(Panel{5, 0});
+    for (const DynamicVoxel& voxel : scene_->dynamic_W.voxels()) {
+      if (i == 0) late.push_back(voxel.key);
+    }
+    for (const VoxelKey key : late) {
+      ASSERT_EQ(scene_->static_map_W.State(key), VoxelState::kOccupied) << i;
+    }
+  }
+  EXPECT_GT(late.size(), 20u);
+  EXPECT_EQ(Count(), 0u);
+}
+
+TEST_F(DynamicSpaceOfScene, LastsWhereASingleRayHitsIt) {
+  KnowFree();
+  Look(Panel{5, 0});
+  for (int i = 0; i < 12; ++i) {
+    Frame frame = FrameAt(next_s_);
+    AddPoint(frame, kStaticLabel, Panel{5, 0}.Middle());
+    Apply(frame);
+    next_s_ += kPeriod_s;
+    EXPECT_TRUE(There(Panel{5, 0}.Middle()).dynamic) << i;
+  }
+  EXPECT_EQ(Count(), 1u);
+}
+
+// Two things that pass the same place are not one that stays.
+TEST_F(DynamicSpaceOfScene, IsNotStaticForBeingHitTwice) {
+  params_.dynamic_life = std::chrono::seconds(5);
+  SetUp();
+  KnowFree();
+  const Panel panel{5, 0};
+  Look(panel);
+  for (int i = 0; i < 25; ++i) Look(Panel{2, 0, 0.5});
+  Look(panel);
+  EXPECT_TRUE(There(panel.Middle()).dynamic);
+  EXPECT_EQ(Lasting(panel.Middle()), VoxelState::kFree);
+}
+
+TEST_F(DynamicSpaceOfScene, GivesWayToAPriorMap) {
+  for (const int more : {0, 1}) {
+    SetUp();
+    next_s_ = 0;
+    KnowFree();
+    const Panel panel{5, 0};
+    Look(panel);
+    VoxelMap prior(params_.resolution_m, params_.Model());
+    const auto value = static_cast<LogOdds>(prior.model().AfterHit(prior.model().occupied) + more);
+    prior.Set(prior.grid().KeyOf(panel.Middle()), value);
+    ASSERT_TRUE(dut_->LoadPrior(prior).ok());
+    scene_ = dut_->Publish();
+    EXPECT_FALSE(There(panel.Middle()).dynamic);
+    EXPECT_EQ(Lasting(panel.Middle()), VoxelState::kOccupied);
+    EXPECT_GT(Count(), 0u);
+  }
+}
+
 TEST_F(DynamicSpaceOfScene, NeedsMoreThanAHitOrTwo) {
   KnowFree();
   Frame frame = FrameAt(next_s_);
@@ -189,6 +251,7 @@ TEST_F(DynamicSpaceOfScene, RollsWithTheWindow) {
   AddPoint(frame, kStaticLabel, {3, 0, 0});
   Apply(frame);
   EXPECT_EQ(Count(), 0u);
+  EXPECT_EQ(report_.voxels_dynamic, 0u);
 }
 
 // As in the docs: the map without the mover, but where it hid something.
