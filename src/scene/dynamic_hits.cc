@@ -163,7 +163,9 @@ DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dyn
   }
   const auto first_old = static_cast<std::ptrdiff_t>(change.voxels.size());
   for (const DynamicVoxel& voxel : dynamic_W.voxels()) {
-    if (IsPassed(update, voxel.key) || std::ranges::binary_search(hits, voxel.key, ComesBefore)) {
+    const bool is_forgotten = lasting_W.Find(voxel.key) != lasting_W.model().clamp_min;
+    if (is_forgotten || IsPassed(update, voxel.key) ||
+        std::ranges::binary_search(hits, voxel.key, ComesBefore)) {
       continue;
     }
     if (stamp - voxel.last_hit > params.dynamic_life) {

@@ -22,7 +22,8 @@ struct DynamicChange {
 
 // Takes the hits on what was known free for long out of the update, unless they are new single ones
 // or new ones next to a surface, where they come of noise. What the update's rays pass is dynamic
-// no more. `lasting_W`: the static map before the scan, WithoutDynamic.
+// no more, nor is what the map has forgotten since. `lasting_W`: the static map before the scan,
+// WithoutDynamic.
 DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W, Time stamp,
                               const SceneParams& params, ScanUpdate& update);
 

@@ -112,7 +112,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
     report.points_doubted = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
   }
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
-  VoxelMap static_map_W = scene_.static_map_W;
+  VoxelMap static_map_W = scene_.LastingMap();
   std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
   std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
   const SceneObjects named = WithoutLapsedIds(scene_.objects, clues, frame.stamp, scene_.params);
@@ -161,9 +161,7 @@ DynamicSpace SceneBuilder::CastIntoStatic(const LabelledCloud& cloud, Time stamp
     static_map_W.Update(update, *pool_);
     return {};
   }
-  const DynamicSpace before = StillIn(static_map_W, scene_.dynamic_W);
-  static_map_W = WithoutDynamic(std::move(static_map_W), before);
-  DynamicChange change = TakeDynamicHits(static_map_W, before, stamp, params, update);
+  DynamicChange change = TakeDynamicHits(static_map_W, scene_.dynamic_W, stamp, params, update);
   static_map_W.Update(update, *pool_);
   return PutDynamic(std::move(change), static_map_W);
 }

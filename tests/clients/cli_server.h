@@ -30,6 +30,12 @@ class CliServer : public ::testing::Test {
     return RunProgram(arguments, input);
   }
 
+  // A command that asks no server.
+  static Finished Local(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
+    return RunProgram(arguments);
+  }
+
   // The answer of a command that must succeed.
   nlohmann::json Ask(std::vector<std::string> arguments, const std::string& input = "") {
     arguments.push_back("--json");

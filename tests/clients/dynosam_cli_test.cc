@@ -46,10 +46,6 @@ class DynosamLogs : public CliServer {
     folder_.Write("hybrid_backend_map_points_log.csv", points);
   }
   std::string path() const { return folder_.path().string(); }
-  static Finished Local(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
-    return RunProgram(arguments);
-  }
 
   TemporaryFolder folder_;
 };

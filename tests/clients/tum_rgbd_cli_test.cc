@@ -46,10 +46,6 @@ class TumSequence : public CliServer {
     folder_.Write("object_poses.txt", objects);
   }
   std::string path() const { return folder_.path().string(); }
-  static Finished Local(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
-    return RunProgram(arguments);
-  }
 
   TemporaryFolder folder_;
 };

@@ -254,6 +254,29 @@ TEST_F(DynamicSpaceOfScene, RollsWithTheWindow) {
   EXPECT_EQ(report_.voxels_dynamic, 0u);
 }
 
+// Where an object was that is dropped, nobody knows what is, dynamic space or not.
+TEST_F(DynamicSpaceOfScene, GoesWithADroppedObject) {
+  params_.dynamic_life = std::chrono::seconds(5);
+  params_.object_lifetime = std::chrono::seconds(1);
+  SetUp();
+  KnowFree();
+  const Panel panel{5, 0}, nearer{2, 0, 0.5};
+  Look(panel);
+  Frame labelled = ScanOfWall(next_s_, panel);
+  for (std::size_t i = 0; i < labelled.labels.size(); ++i) {
+    if (labelled.points_S[i].x() < 9) labelled.labels[i] = 7;
+  }
+  Apply(labelled);
+  next_s_ += kPeriod_s;
+  for (int i = 0; i < 9; ++i) Look(nearer);
+  ASSERT_EQ(scene_->objects.size(), 1u);
+  ASSERT_TRUE(There(panel.Middle()).dynamic);
+  for (int i = 0; i < 3; ++i) Look(nearer);
+  EXPECT_TRUE(scene_->objects.empty());
+  EXPECT_FALSE(There(panel.Middle()).dynamic);
+  EXPECT_EQ(Lasting(panel.Middle()), VoxelState::kUnknown);
+}
+
 // As in the docs: the map without the mover, but where it hid something.
 TEST_F(DynamicSpaceOfScene, TheLastingMapIsAsIfNothingWasThere) {
   KnowFree();

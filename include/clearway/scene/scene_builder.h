@@ -86,7 +86,7 @@ class SceneBuilder {
 
  private:
   absl::Status CheckFits(const Frame& frame) const;
-  // Updates the static map by a scan. Returns what is dynamic in it then.
+  // Updates the lasting map by a scan to the static map. Returns what is dynamic in that.
   DynamicSpace CastIntoStatic(const LabelledCloud& cloud, Time stamp, VoxelMap& static_map_W);
   // Takes over what `change` made of the scene's objects, unless it failed.
   absl::Status ChangeObjects(

@@ -58,7 +58,7 @@ struct SceneParams {
   // lower clamp) and are hit, a few together and away from surfaces. Something moves there that
   // nobody labelled. They are occupied at once and stay out of the static map for good: free again
   // as soon as a ray passes, unknown when not hit for longer than `dynamic_life`, and static when
-  // hit for `dynamic_settle`. A life of 0: they are hit as other voxels are.
+  // hit for `dynamic_settle`, with gaps of at most a quarter of it. A life of 0: there is none.
   Duration dynamic_life{};
   Duration dynamic_settle = std::chrono::seconds(2);
 
