@@ -61,36 +61,6 @@ absl::Status TooManyCells(const std::string& field, double cells, std::uint64_t 
 
 }  // namespace
 
-ObjectInfo DescribeObject(const MovingObject& object) {
-  ObjectInfo info;
-  info.id = object.id;
-  info.also = object.also;
-  info.T_W_O = object.history.back().T_W_O;
-  info.t_k = object.t_k();
-  info.velocity_O = object.velocity_O;
-  info.speed_mps = object.SpeedMps();
-  if (!(object.bound == PositionBound{})) info.bound = object.bound;
-  info.box_O = object.solid->box_O;
-  info.box_W = Transformed(info.T_W_O, info.box_O);
-  info.extent = ExtentOf(object);
-  info.observed_voxels = object.map_O.observed_count();
-  info.occupied_voxels = object.map_O.occupied_count();
-  info.first_seen = object.first_seen;
-  info.last_seen = object.last_seen;
-  info.frames_seen = object.frames_seen;
-  info.at_rest = object.AtRest();
-  info.bridged = object.bridged;
-  info.given = object.given();
-  if (!object.future.empty()) info.future_end = object.future.back().stamp;
-  return info;
-}
-
-ObjectList DescribeObjects(const SceneSnapshot& scene) {
-  ObjectList list{{scene.version, scene.stamp}, {}};
-  for (const auto& object : scene.objects) list.objects.push_back(DescribeObject(*object));
-  return list;
-}
-
 Aabb BoxAroundBlocks(const VoxelMap& map) {
   Aabb box;
   const double block_m = kBlockSize * map.grid().resolution_m();

@@ -12,8 +12,6 @@ namespace clearway {
 
 // Long work looks at `gone` every so often, and then ends with CANCELLED.
 
-ObjectInfo DescribeObject(const MovingObject& object);
-ObjectList DescribeObjects(const SceneSnapshot& scene);
 // Around the observed blocks: quicker than around the voxels.
 Aabb BoxAroundBlocks(const VoxelMap& map);
 

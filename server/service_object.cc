@@ -1,4 +1,5 @@
 #include "absl/strings/str_cat.h"
+#include "server/describe_objects.h"
 #include "server/handler.h"
 #include "server/queries.h"
 #include "server/services.h"
@@ -39,7 +40,7 @@ grpc::Status ObjectHandlers::GetObject(grpc::ServerContext* context,
               "UNKNOWN_OBJECT");
         }
         Write(VersionOf(scene), response->mutable_scene());
-        Write(DescribeObject(*object), response->mutable_object());
+        Write(DescribeObject(scene, *object), response->mutable_object());
         return absl::OkStatus();
       });
 }

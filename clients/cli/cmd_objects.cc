@@ -33,11 +33,21 @@ struct Flags {
 
 struct ObjectRow {
   ObjectInfo info;
-  std::optional<PredictedPose> then;  // at the time asked for
+  std::optional<PredictedPose> then = {};  // at the time asked for
 };
+using ObjectRows = std::vector<ObjectRow>;  // an object's parts follow it
+
+ObjectRows RowsOf(const ObjectList& list) {
+  ObjectRows rows;
+  for (const ObjectInfo& object : list.objects) {
+    rows.push_back({object});
+    for (const ObjectInfo& part : object.parts) rows.push_back({part});
+  }
+  return rows;
+}
 
 // Objects that a newer scene has or lacks are matched by id.
-absl::Status AddPredictions(const SceneClient& client, Time time, std::vector<ObjectRow>& rows) {
+absl::Status AddPredictions(const SceneClient& client, Time time, ObjectRows& rows) {
   const auto predicted = client.PredictPoses({}, {&time, 1});
   if (!predicted.ok()) return predicted.status();
   for (std::size_t i = 0; i < predicted->objects.size() && i < predicted->poses.size(); ++i) {
@@ -52,6 +62,7 @@ Json AsJson(const ObjectRow& row) {
   const ObjectInfo& o = row.info;
   Json json = {{"id", o.id},
                {"other_ids", o.also},
+               {"parts", Json::array()},
                {"frames_seen", o.frames_seen},
                {"occupied_voxels", o.occupied_voxels},
                {"observed_voxels", o.observed_voxels},
@@ -88,8 +99,8 @@ Json AsJson(const ObjectRow& row) {
 
 // The id that it goes by, then those under which it was known again.
 std::string IdsOf(const ObjectInfo& o) {
-  return o.also.empty() ? absl::StrCat(o.id)
-                        : absl::StrCat(o.id, ", ", absl::StrJoin(o.also, ", "));
+  if (!o.also.empty()) return absl::StrCat(o.id, ", ", absl::StrJoin(o.also, ", "));
+  return o.part_of == kStaticLabel ? absl::StrCat(o.id) : absl::StrCat(o.id, " of ", o.part_of);
 }
 
 // "moving", and what else a planner's author wants to know of the motion.
@@ -100,10 +111,10 @@ std::string MotionOf(const ObjectInfo& o) {
   return o.at_rest ? "at rest" : "moving";
 }
 
-void PrintText(std::ostream& out, const ObjectList& list, const std::vector<ObjectRow>& rows,
+void PrintText(std::ostream& out, const ObjectList& list, const ObjectRows& rows,
                std::optional<Time> time) {
   out << "scene version " << list.version << ", newest stamp " << Seconds(list.stamp) << ", "
-      << Plural(rows.size(), "object") << "\n";
+      << Plural(list.objects.size(), "object") << "\n";
   if (rows.empty()) return;
   std::vector<std::string> header = {"id",        "frames", "voxels",   "size",
                                      "speed m/s", "motion", "position", "last seen"};
@@ -152,8 +163,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (auto status = Change(client, flags); !status.ok()) return status;
   const auto list = client.ListObjects();
   if (!list.ok()) return list.status();
-  std::vector<ObjectRow> rows;
-  for (const ObjectInfo& info : list->objects) rows.push_back({info, std::nullopt});
+  ObjectRows rows = RowsOf(*list);
   std::optional<Time> time;
   if (flags.time) {
     time = flags.time->At(list->stamp);
@@ -167,7 +177,11 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   Json json = ToJson(static_cast<const Versioned&>(*list));
   if (time) json["time_ns"] = ToNanoseconds(*time);
   json["objects"] = Json::array();
-  for (const ObjectRow& row : rows) json["objects"].push_back(AsJson(row));
+  for (const ObjectRow& row : rows) {
+    const bool is_part =
+        !json["objects"].empty() && json["objects"].back()["id"] == row.info.part_of;
+    (is_part ? json["objects"].back()["parts"] : json["objects"]).push_back(AsJson(row));
+  }
   Print(terminal.out, json);
   return absl::OkStatus();
 }

@@ -41,17 +41,27 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
       ->delimiter(',')
       ->type_name("ID,...")
       ->group(group);
+  command
+      ->add_option("--parts", flags->parts,
+                   "Tell objects that consist of parts as such (told), as an\nobject for each part "
+                   "(apart), or as one rigid object (one)")
+      ->check(CLI::IsMember({"told", "apart", "one"}))
+      ->capture_default_str()
+      ->group(group);
 }
 
 FrameTeller::FrameTeller(const ErrorFlags& flags)
     : wrong_labels_(flags.wrong_labels),
       mask_bleed_rad_(flags.mask_bleed_deg * std::numbers::pi / 180),
+      parts_(flags.parts),
       unlabelled_(flags.unlabelled.begin(), flags.unlabelled.end()) {
   if (flags.forget_s) tracker_.emplace(FromSeconds(*flags.forget_s));
 }
 
 Frame FrameTeller::Tell(const Frame& frame) {
   Frame told = WithBleedingMasks(WithoutObjects(frame, unlabelled_), mask_bleed_rad_);
+  if (parts_ == "one") told = WithoutParts(std::move(told));
+  if (parts_ == "apart") told.parts.clear();
   if (tracker_) told = tracker_->Retold(std::move(told));
   return WithWrongLabels(std::move(told), wrong_labels_, kSeed);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "CLI/CLI.hpp"
 #include "clearway/report/identity_score.h"
@@ -16,6 +17,7 @@ struct ErrorFlags {
   double mask_bleed_deg = 0;
   std::optional<double> forget_s;
   std::vector<ObjectId> unlabelled;
+  std::string parts = "told";
 };
 void AddErrorFlags(CLI::App* command, ErrorFlags* flags);
 
@@ -33,6 +35,7 @@ class FrameTeller {
 
  private:
   double wrong_labels_, mask_bleed_rad_;
+  std::string parts_;
   std::set<ObjectId> unlabelled_;
   std::optional<ForgetfulTracker> tracker_;
   IdentityScore identities_;

@@ -15,6 +15,8 @@ static_assert(std::endian::native == std::endian::little, "recordings are little
 
 constexpr std::int64_t kHasNoReturn = 1;
 constexpr std::int64_t kHasOrigins = 2;
+constexpr std::int64_t kHasParts = 4;
+constexpr std::size_t kPartBytes = 8;                  // id, whole
 constexpr std::size_t kPoseBytes = 56;                 // 7 doubles
 constexpr std::size_t kMotionBytes = 12 + kPoseBytes;  // id, from
 constexpr std::size_t kObjectPoseBytes = 4 + kPoseBytes;
@@ -92,6 +94,10 @@ absl::Status CheckFrame(const Frame& frame) {
     return absl::ResourceExhaustedError(
         absl::StrCat("points: ", count, " points; the limit is ", kMaxRecordedPoints));
   }
+  if (frame.parts.size() > kMaxRecordedParts) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("parts: ", frame.parts.size(), " parts; the limit is ", kMaxRecordedParts));
+  }
   absl::Status status = CheckLength("labels", frame.labels.size(), count);
   if (status.ok() && !frame.no_return.empty()) {
     status = CheckLength("no_return", frame.no_return.size(), count);
@@ -112,10 +118,16 @@ absl::StatusOr<std::string> Compressed(const std::string& bytes, int level) {
   return out;
 }
 
-// `size` is bounded by kMaxRecordedPoints, whatever the compressed bytes claim.
-absl::StatusOr<std::string> Decompressed(std::string_view bytes, std::size_t size) {
-  if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != size) {
-    return absl::DataLossError(absl::StrCat("points: not ", size, " bytes compressed by zstd"));
+// Of `least` bytes, and if there are parts, of some more. What is taken is bounded by
+// kMaxRecordedPoints and kMaxRecordedParts, whatever the compressed bytes claim.
+absl::StatusOr<std::string> Decompressed(std::string_view bytes, std::size_t least,
+                                         bool has_parts) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  const std::size_t most = least + (has_parts ? kMaxRecordedParts * kPartBytes : 0);
+  if (size < least || size > most || (size - least) % kPartBytes != 0) {
+    return absl::DataLossError(absl::StrCat("points: not ", least,
+                                            has_parts ? " bytes and those of parts" : " bytes",
+                                            " compressed by zstd"));
   }
   std::string out(size, '\0');
   const std::size_t result = ZSTD_decompress(out.data(), size, bytes.data(), bytes.size());
@@ -137,7 +149,7 @@ absl::Status CheckRow(const RowView& row) {
     return absl::DataLossError(absl::StrCat("point_count: ", row.point_count,
                                             "; it must lie between 0 and ", kMaxRecordedPoints));
   }
-  if ((row.arrays & ~(kHasNoReturn | kHasOrigins)) != 0) {
+  if ((row.arrays & ~(kHasNoReturn | kHasOrigins | kHasParts)) != 0) {
     return absl::DataLossError(absl::StrCat("arrays: unknown bits in ", row.arrays));
   }
   if (row.world_from_sensor.size() != kPoseBytes) {
@@ -189,8 +201,8 @@ absl::StatusOr<EncodedRow> EncodeFrame(const Frame& frame, std::int64_t number,
   row.sequence = std::bit_cast<std::int64_t>(frame.sequence);
   row.stamp_ns = ToNanoseconds(frame.stamp);
   row.point_count = static_cast<std::int64_t>(frame.points_S.size());
-  row.arrays =
-      (frame.no_return.empty() ? 0 : kHasNoReturn) | (frame.origins_S.empty() ? 0 : kHasOrigins);
+  row.arrays = (frame.no_return.empty() ? 0 : kHasNoReturn) |
+               (frame.origins_S.empty() ? 0 : kHasOrigins) | (frame.parts.empty() ? 0 : kHasParts);
   PutPose(row.world_from_sensor, frame.T_W_S);
   for (const ObjectMotion& motion : frame.motions) {
     Put(row.motions, motion.id);
@@ -207,6 +219,10 @@ absl::StatusOr<EncodedRow> EncodeFrame(const Frame& frame, std::int64_t number,
   for (ObjectId label : frame.labels) Put(points, label);
   for (std::uint8_t flag : frame.no_return) Put(points, flag);
   PutVectors(points, frame.origins_S);
+  for (const ObjectPart& part : frame.parts) {
+    Put(points, part.id);
+    Put(points, part.whole);
+  }
   absl::StatusOr<std::string> compressed = Compressed(points, compression_level);
   if (!compressed.ok()) return compressed.status();
   row.points = *std::move(compressed);
@@ -217,8 +233,9 @@ absl::StatusOr<Frame> DecodeFrame(const RowView& row) {
   const absl::Status status = CheckRow(row);
   if (!status.ok()) return status;
   const std::size_t count = static_cast<std::size_t>(row.point_count);
+  const std::size_t bytes_of_points = BytesOfPoints(count, row.arrays);
   const absl::StatusOr<std::string> points =
-      Decompressed(row.points, BytesOfPoints(count, row.arrays));
+      Decompressed(row.points, bytes_of_points, (row.arrays & kHasParts) != 0);
   if (!points.ok()) return points.status();
 
   Frame frame;
@@ -242,6 +259,10 @@ absl::StatusOr<Frame> DecodeFrame(const RowView& row) {
   frame.labels = cloud.TakeArray<ObjectId>(count);
   if (row.arrays & kHasNoReturn) frame.no_return = cloud.TakeArray<std::uint8_t>(count);
   if (row.arrays & kHasOrigins) frame.origins_S = cloud.TakeVectors(count);
+  for (std::size_t i = 0; i < (points->size() - bytes_of_points) / kPartBytes; ++i) {
+    const ObjectId id = cloud.Take<ObjectId>();
+    frame.parts.push_back({id, cloud.Take<ObjectId>()});
+  }
   return frame;
 }
 

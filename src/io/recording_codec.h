@@ -12,6 +12,7 @@
 namespace clearway {
 
 inline constexpr std::size_t kMaxRecordedPoints = 20'000'000;
+inline constexpr std::size_t kMaxRecordedParts = 100'000;
 
 // The columns of one row of the table `frame`, but for the checksum. Views into a row that is read
 // are valid as long as that row is current.
@@ -22,7 +23,7 @@ struct RecordedRow {
   std::int64_t sequence = 0;  // two's complement
   std::int64_t stamp_ns = 0;
   std::int64_t point_count = 0;
-  std::int64_t arrays = 0;  // bit 0: no_return is there, bit 1: origins are
+  std::int64_t arrays = 0;  // bit 0: no_return is there, bit 1: origins are, bit 2: parts
   Text world_from_sensor;
   Text motions;
   Text poses;

@@ -66,22 +66,42 @@ std::shared_ptr<const Solid> HullOf(const MetSurfaces::Pieces& pieces_B, double 
   return SolidOf(map_B);
 }
 
+// A body, and what of it was seen.
+struct SeenBody {
+  const Body* body;
+  std::shared_ptr<const Solid> seen_B;
+
+  bool Holds(const Eigen::Vector3d& p_B) const { return BodyHolds(*body, p_B); }
+  bool HoldsSeen(const Eigen::Vector3d& p_B) const {
+    return seen_B->box_O.Contains(p_B) && Contains(seen_B->shape, p_B) && Holds(p_B);
+  }
+};
+
 // What is compared at one time.
 struct Compared {
   const MovingObject& object;
   SolidMode mode;
   Pose T_W_O;  // as predicted
-  const Body& body;
-  const Solid& seen_B;
-  Pose T_W_B;
+  const std::vector<SeenBody>& bodies;
+  std::vector<Pose> T_W_B;  // of these, in truth
 };
 
 SolidOverlap OverlapOf(const Compared& c) {
   const VoxelMap& map_O = c.object.map_O;
   Aabb box_W = Transformed(c.T_W_O, c.object.solid->box_O);
-  box_W.Extend(Transformed(c.T_W_B, c.body.BoxB()));
+  std::vector<Pose> T_B_W;
+  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+    box_W.Extend(Transformed(c.T_W_B[i], c.bodies[i].body->BoxB()));
+    T_B_W.push_back(Inverse(c.T_W_B[i]));
+  }
+  const auto any_body = [&](const Eigen::Vector3d& p_W, auto holds) {
+    for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+      if ((c.bodies[i].*holds)(T_B_W[i] * p_W)) return true;
+    }
+    return false;
+  };
   VoxelMarks predicted(map_O.grid(), box_W), truly = predicted, seen = predicted;
-  const Pose T_O_W = Inverse(c.T_W_O), T_B_W = Inverse(c.T_W_B);
+  const Pose T_O_W = Inverse(c.T_W_O);
   const bool filled = c.object.FillsSolid(c.mode);
   predicted.MarkIf([&](const Eigen::Vector3d& p_W) {
     const Eigen::Vector3d p_O = T_O_W * p_W;
@@ -89,11 +109,8 @@ SolidOverlap OverlapOf(const Compared& c) {
     return filled ? Contains(c.object.solid->shape, p_O)
                   : map_O.State(map_O.grid().KeyOf(p_O)) == VoxelState::kOccupied;
   });
-  truly.MarkIf([&](const Eigen::Vector3d& p_W) { return BodyHolds(c.body, T_B_W * p_W); });
-  seen.MarkIf([&](const Eigen::Vector3d& p_W) {
-    const Eigen::Vector3d p_B = T_B_W * p_W;
-    return c.seen_B.box_O.Contains(p_B) && Contains(c.seen_B.shape, p_B) && BodyHolds(c.body, p_B);
-  });
+  truly.MarkIf([&](const Eigen::Vector3d& p_W) { return any_body(p_W, &SeenBody::Holds); });
+  seen.MarkIf([&](const Eigen::Vector3d& p_W) { return any_body(p_W, &SeenBody::HoldsSeen); });
   SolidOverlap overlap;
   predicted.ForEach([&](VoxelKey key) {
     overlap.predicted += predicted.At(key);
@@ -122,13 +139,19 @@ void SolidScore::Add(const SceneSnapshot& scene, const MetSurfaces& met) {
     const Body* const body = world_->FindObject(object->id);
     if (body == nullptr || object->last_seen != scene.stamp) continue;
     auto& overlaps = overlaps_.try_emplace(object->id, ahead_.size()).first->second;
-    const auto seen_B = HullOf(met.Of(object->id), object->map_O.grid().resolution_m());
+    const double voxel_m = object->map_O.grid().resolution_m();
+    std::vector<SeenBody> bodies = {{body, HullOf(met.Of(body->id), voxel_m)}};
+    for (const Body* part : world_->PartsOf(body->id)) {
+      if (scene.FindObject(part->id) != nullptr || met.Of(part->id).empty()) continue;
+      bodies.push_back({part, HullOf(met.Of(part->id), voxel_m)});
+    }
     for (std::size_t i = 0; i < ahead_.size(); ++i) {
       const Time then = scene.stamp + ahead_[i];
       if (then > end_) continue;
       const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
-      overlaps[i] += OverlapOf(
-          {*object, scene.params.solid, T_W_O, *body, *seen_B, PoseAt(body->trajectory, then)});
+      std::vector<Pose> T_W_B;
+      for (const SeenBody& b : bodies) T_W_B.push_back(PoseAt(b.body->trajectory, then));
+      overlaps[i] += OverlapOf({*object, scene.params.solid, T_W_O, bodies, std::move(T_W_B)});
     }
   }
 }

@@ -16,6 +16,8 @@ ScenePtr WithTrueIds(const SceneSnapshot& scene, const std::map<ObjectId, Object
     MovingObject copy = *object;
     copy.id = id;
     copy.also.clear();
+    const auto whole = true_ids.find(copy.part_of);
+    if (whole != true_ids.end()) copy.part_of = whole->second;
     renamed.objects.push_back(std::make_shared<const MovingObject>(std::move(copy)));
   }
   return std::make_shared<const SceneSnapshot>(std::move(renamed));

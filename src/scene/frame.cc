@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
 #include "absl/strings/str_cat.h"
 
@@ -32,6 +33,38 @@ absl::Status CheckLengths(const Frame& frame, const FrameLimits& limits) {
   if (auto status = check("labels", frame.labels.size(), false); !status.ok()) return status;
   if (auto status = check("no_return", frame.no_return.size(), true); !status.ok()) return status;
   return check("origins_m", frame.origins_S.size(), true);
+}
+
+absl::Status CheckParts(const Frame& frame, const FrameLimits& limits) {
+  if (frame.parts.size() > limits.max_objects) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("parts: ", frame.parts.size(), " parts; the limit is ", limits.max_objects));
+  }
+  absl::flat_hash_map<ObjectId, ObjectId> wholes;
+  for (std::size_t i = 0; i < frame.parts.size(); ++i) {
+    const auto [id, whole] = frame.parts[i];
+    const std::string id_field = absl::StrCat("parts[", i, "].object_id");
+    const std::string whole_field = absl::StrCat("parts[", i, "].whole_id");
+    if (id <= kStaticLabel) {
+      return Invalid(id_field, absl::StrCat("is ", id, "; object ids start at 1"));
+    }
+    if (whole < kStaticLabel) {
+      return Invalid(whole_field,
+                     absl::StrCat("is ", whole, "; object ids start at 1, and 0 is no object"));
+    }
+    if (id == whole) return Invalid(whole_field, absl::StrCat("is object ", id, " itself"));
+    if (!wholes.emplace(id, whole).second) {
+      return Invalid(id_field, absl::StrCat("object ", id, " is told to be a part twice"));
+    }
+  }
+  for (std::size_t i = 0; i < frame.parts.size(); ++i) {
+    const auto of_whole = wholes.find(frame.parts[i].whole);
+    if (of_whole == wholes.end() || of_whole->second == kStaticLabel) continue;
+    return Invalid(absl::StrCat("parts[", i, "].whole_id"),
+                   absl::StrCat("object ", of_whole->first, " is itself a part, of object ",
+                                of_whole->second));
+  }
+  return absl::OkStatus();
 }
 
 absl::Status CheckLabels(const Frame& frame) {
@@ -111,6 +144,7 @@ absl::Status Validate(const Frame& frame, const FrameLimits& limits) {
   }
   if (auto status = CheckLengths(frame, limits); !status.ok()) return status;
   if (auto status = CheckLabels(frame); !status.ok()) return status;
+  if (auto status = CheckParts(frame, limits); !status.ok()) return status;
   absl::flat_hash_set<ObjectId> seen;
   for (std::size_t i = 0; i < frame.motions.size(); ++i) {
     const std::string field = absl::StrCat("motions[", i, "]");

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/geometry/hull.h"
 #include "clearway/map/voxel_key.h"
+#include "scene/group_motion.h"
 
 namespace clearway {
 namespace {
@@ -26,6 +27,14 @@ SceneObjects::iterator Named(ObjectId id, SceneObjects& objects) {
   if (place != objects.end() && (*place)->id == id) return place;
   return std::find_if(objects.begin(), objects.end(),
                       [&](const auto& object) { return object->IsCalled(id); });
+}
+
+// Whether they are parts of one object, or one of the other.
+bool BelongTogether(const MovingObject& a, const MovingObject& b) {
+  const auto whole_of = [](const MovingObject& object) {
+    return object.part_of == kStaticLabel ? object.id : object.part_of;
+  };
+  return whole_of(a) == whole_of(b);
 }
 
 // A pose in the addressable space, at a stamp that may be calculated with.
@@ -177,7 +186,10 @@ absl::Status RemoveGiven(const std::string& field, ObjectId id, SceneObjects& ob
     return absl::NotFoundError(
         absl::StrCat(field, ": object ", id, " was reconstructed from scans, not given"));
   }
-  objects.erase(place);
+  const ObjectId first_id = (*place)->id;
+  std::erase_if(objects, [&](const auto& object) {
+    return object->id == first_id || (object->given() && object->part_of == first_id);
+  });
   return absl::OkStatus();
 }
 
@@ -191,7 +203,14 @@ absl::Status StateFuture(ObjectId id, const std::vector<StampedPose>& poses,
   if (auto status = CheckFuture("future", poses, (*place)->t_k(), params, limits); !status.ok()) {
     return status;
   }
-  *place = std::make_shared<const MovingObject>(WithFuture(**place, Normalized(poses)));
+  const MovingObject before = **place;
+  *place = std::make_shared<const MovingObject>(WithFuture(before, Normalized(poses)));
+  for (auto& other : objects) {
+    if (!BelongTogether(*other, before) || other->id == before.id) continue;
+    const Pose T_W_O = PredictPose(before, other->t_k(), params.horizon).T_W_O;
+    const Pose T_O_P = Inverse(T_W_O) * other->history.back().T_W_O;
+    other = std::make_shared<const MovingObject>(WithFutureOf(*other, **place, T_O_P));
+  }
   return absl::OkStatus();
 }
 

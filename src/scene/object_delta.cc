@@ -95,6 +95,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   delta.id = to.id;
   delta.also = to.also;
   delta.older_ids_told = to.older_ids_told;
+  delta.part_of = to.part_of;
   delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O, detail);
   delta.history = to.history;
   delta.keeps_future = from != nullptr && KeepsFuture(*from, to);
@@ -122,6 +123,9 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   for (const ObjectId id : delta.also) {
     if (id <= kStaticLabel) return Malformed(absl::StrCat(field, ".other_ids: has ", id));
   }
+  if (delta.part_of < kStaticLabel || delta.part_of == delta.id) {
+    return Malformed(absl::StrCat(field, ".part_of_id: is ", delta.part_of));
+  }
   if (auto status = CheckPoses(field, delta); !status.ok()) return status;
   if (auto status = CheckBound(field, delta.bound); !status.ok()) return status;
   if (base != nullptr && base->given() != delta.given) base = nullptr;
@@ -133,6 +137,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.id = delta.id;
   object.also = delta.also;
   object.older_ids_told = delta.older_ids_told;
+  object.part_of = delta.part_of;
   object.history = delta.history;
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
   object.future_velocity_O = delta.future_velocity_O;

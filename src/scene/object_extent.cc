@@ -21,21 +21,30 @@ struct Footprint {
   double min_z_m = std::numeric_limits<double>::infinity(), max_z_m = -min_z_m;
 };
 
-Footprint FootprintOf(const MovingObject& object) {
-  Footprint footprint;
-  std::vector<Eigen::Vector2d> points_O;
-  const auto add = [&](const Eigen::Vector3d& p_O) {
-    points_O.push_back(p_O.head<2>());
-    footprint.min_z_m = std::min(footprint.min_z_m, p_O.z());
-    footprint.max_z_m = std::max(footprint.max_z_m, p_O.z());
-  };
+// The points of it that an outline can have, in O.
+template <class Add>
+void ForEachPoint(const PlacedPart& part, Add&& add) {
+  const MovingObject& object = *part.object;
   if (object.given()) {
-    for (const Eigen::Vector3d& vertex_O : object.solid->hull->vertices) add(vertex_O);
+    for (const Eigen::Vector3d& vertex : object.solid->hull->vertices) add(part.T_O_P * vertex);
   }
+  const VoxelGrid& grid = object.map_O.grid();
   object.map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
     block.occupied.ForEach(
-        [&](int index) { add(object.map_O.grid().CenterOf(VoxelAt(block_key, index))); });
+        [&](int index) { add(part.T_O_P * grid.CenterOf(VoxelAt(block_key, index))); });
   });
+}
+
+Footprint FootprintOf(std::span<const PlacedPart> parts) {
+  Footprint footprint;
+  std::vector<Eigen::Vector2d> points_O;
+  for (const PlacedPart& part : parts) {
+    ForEachPoint(part, [&](const Eigen::Vector3d& p_O) {
+      points_O.push_back(p_O.head<2>());
+      footprint.min_z_m = std::min(footprint.min_z_m, p_O.z());
+      footprint.max_z_m = std::max(footprint.max_z_m, p_O.z());
+    });
+  }
   footprint.outline_O = ConvexOutline(points_O);
   // Too thin for an outline: any of them bounds it.
   if (footprint.outline_O.size() < 3) footprint.outline_O = std::move(points_O);
@@ -70,9 +79,13 @@ ObjectExtent SmallestExtent(const Footprint& footprint) {
 
 }  // namespace
 
-ObjectExtent ExtentOf(const MovingObject& object) {
-  if (object.map_O.occupied_count() == 0 && !object.given()) return {};
-  const Footprint footprint = FootprintOf(object);
+ObjectExtent ExtentOf(const MovingObject& object) { return ExtentOf(object, {}); }
+
+ObjectExtent ExtentOf(const MovingObject& object, std::span<const PlacedPart> parts) {
+  std::vector<PlacedPart> all = {{&object, Pose()}};
+  all.insert(all.end(), parts.begin(), parts.end());
+  const Footprint footprint = FootprintOf(all);
+  if (footprint.outline_O.empty()) return {};
   ObjectExtent best = SmallestExtent(footprint);
   constexpr double kPi = std::numbers::pi;
   if (best.size_m.x() < best.size_m.y()) best = ExtentAt(footprint, best.yaw_rad + kPi / 2);

@@ -1,6 +1,8 @@
 // What one frame does to one moving object (II-D).
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -15,7 +17,15 @@ struct ObjectClue {
   const ObjectPose* pose = nullptr;
   std::span<const std::uint32_t> points;  // its hits, as indices into the cloud
   bool by_older_id = false;               // than the newest of the object's ids
+
+  // Whether it says where the object is.
+  bool Places() const { return motion != nullptr || pose != nullptr; }
 };
+
+// By id, so that objects are visited in one order.
+using ClueMap = std::map<ObjectId, ObjectClue>;
+// A scene's objects while a frame is applied to them.
+using ObjectMap = std::map<ObjectId, std::shared_ptr<const MovingObject>>;
 
 // First sight: O at the centroid of the object's points (at least one), orientation identity. A
 // motion in the same frame gives the first velocity.

@@ -19,6 +19,15 @@ constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
 // sensor, whatever other sensors see meanwhile.
 constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 
+// Those of parts and of what they are parts of.
+std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {
+  std::set<ObjectId> ids;
+  for (const auto& [id, object] : objects) {
+    if (object->part_of != kStaticLabel) ids.insert({id, object->part_of});
+  }
+  return ids;
+}
+
 bool IsToBeJoined(const MovingObject& object, Time stamp) {
   if (object.given() || stamp - object.first_seen > kYoung) return false;
   const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
@@ -47,9 +56,8 @@ struct Match {
   Pose T_Y_L;  // of their frames
 };
 
-std::vector<Match> MatchesOf(const MovingObject& young,
-                             const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
-                             Time stamp, const SceneParams& params) {
+std::vector<Match> MatchesOf(const MovingObject& young, const ObjectMap& objects, Time stamp,
+                             const SceneParams& params) {
   std::vector<Match> matches;
   if (!IsToBeJoined(young, stamp)) return {};
   for (const auto& [id, lost] : objects) {
@@ -62,8 +70,8 @@ std::vector<Match> MatchesOf(const MovingObject& young,
 
 }  // namespace
 
-SceneObjects WithoutLapsedIds(SceneObjects objects, const std::map<ObjectId, ObjectClue>& clues,
-                              Time stamp, const SceneParams& params) {
+SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
+                              const SceneParams& params) {
   for (auto& object : objects) {
     if (object->also.empty() || stamp - object->older_ids_told <= params.object_lifetime) continue;
     const std::vector<ObjectId> ids = IdsOf(*object);
@@ -74,12 +82,11 @@ SceneObjects WithoutLapsedIds(SceneObjects objects, const std::map<ObjectId, Obj
   return objects;
 }
 
-std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
-                                       std::map<ObjectId, ObjectClue>& clues) {
+std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues) {
   std::set<ObjectId> two_after_all;
   for (const auto& object : objects) {
     if (object->also.empty()) continue;
-    std::vector<std::map<ObjectId, ObjectClue>::iterator> told;  // that with most points last
+    std::vector<ClueMap::iterator> told;  // that with most points last
     for (const ObjectId id : IdsOf(*object)) {
       if (const auto clue = clues.find(id); clue != clues.end()) told.push_back(clue);
     }
@@ -97,13 +104,16 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
   return two_after_all;
 }
 
-std::size_t JoinSeenAgain(std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
-                          Time stamp, const SceneParams& params, ThreadPool& pool) {
+std::size_t JoinSeenAgain(ObjectMap& objects, Time stamp, const SceneParams& params,
+                          ThreadPool& pool) {
+  const std::set<ObjectId> in_groups = IdsInGroups(objects);
   std::vector<Match> matches;
   for (const auto& [id, object] : objects) {
+    if (in_groups.contains(id)) continue;
     const std::vector<Match> of_object = MatchesOf(*object, objects, stamp, params);
     matches.insert(matches.end(), of_object.begin(), of_object.end());
   }
+  std::erase_if(matches, [&](const Match& match) { return in_groups.contains(match.lost); });
   std::size_t joined = 0;
   for (const Match& match : matches) {
     const auto same = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {

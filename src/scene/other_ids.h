@@ -14,18 +14,18 @@ namespace clearway {
 
 // An object that was not told of by its older ids for the object lifetime goes by its newest one
 // alone if the frame uses an older one: that is another object, by an id that is free again.
-SceneObjects WithoutLapsedIds(SceneObjects objects, const std::map<ObjectId, ObjectClue>& clues,
-                              Time stamp, const SceneParams& params);
+SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
+                              const SceneParams& params);
 
 // What the frame says of an object under other ids counts for its first one. Returns the objects of
 // which two ids have points in this frame (more than a few strays): they are two after all, and
 // their clues stay as they are.
-std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects,
-                                       std::map<ObjectId, ObjectClue>& clues);
+std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues);
 
 // Joins objects that were first seen not long ago to those they are, which were lost before.
-// Nothing is joined that could be one of two. Returns how many were.
-std::size_t JoinSeenAgain(std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
-                          Time stamp, const SceneParams& params, ThreadPool& pool);
+// Nothing is joined that could be one of two, nor what is a part of something or has parts. Returns
+// how many were.
+std::size_t JoinSeenAgain(ObjectMap& objects, Time stamp, const SceneParams& params,
+                          ThreadPool& pool);
 
 }  // namespace clearway

@@ -1,15 +1,14 @@
 #include "clearway/scene/scene_builder.h"
 
 #include <algorithm>
-#include <set>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "scene/dropped_object.h"
 #include "scene/dynamic_hits.h"
-#include "scene/given_object.h"
+#include "scene/frame_objects.h"
 #include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
-#include "scene/object_update.h"
+#include "scene/object_groups.h"
 #include "scene/other_ids.h"
 
 namespace clearway {
@@ -24,40 +23,6 @@ void LeaveOutPointsOfGiven(const SceneObjects& objects, LabelledCloud& cloud, Fr
     report.points_given += hits->second.size();
     cloud.object_hits.erase(hits);
   }
-}
-
-// By id, so that objects are visited in one order.
-std::map<ObjectId, ObjectClue> CluesOf(const Frame& frame, const LabelledCloud& cloud) {
-  std::map<ObjectId, ObjectClue> clues;
-  for (const ObjectMotion& motion : frame.motions) clues[motion.id].motion = &motion;
-  for (const ObjectPose& pose : frame.poses) clues[pose.id].pose = &pose;
-  for (const auto& [id, points] : cloud.object_hits) clues[id].points = points;
-  return clues;
-}
-
-// Whether the object is still the same one in this frame: given, or not unseen for too long, and if
-// it is seen again, then where its frame is known.
-bool Continues(const MovingObject& object, const std::map<ObjectId, ObjectClue>& clues, Time stamp,
-               const SceneParams& params) {
-  if (object.given()) return true;
-  if (stamp - object.last_seen > params.object_lifetime) return false;
-  const auto clue = clues.find(object.id);
-  return clue == clues.end() || clue->second.points.empty() ||
-         !OutOfReach(object, clue->second, stamp, params);
-}
-
-// The object after the frame; none for a clue without points to an object of which the place is not
-// known.
-std::optional<MovingObject> Updated(const MovingObject* known, ObjectId id, const ObjectClue& clue,
-                                    const LabelledCloud& cloud, Time stamp,
-                                    const SceneParams& params, ThreadPool& pool) {
-  const bool seen = !clue.points.empty();
-  const bool placed = known != nullptr && !OutOfReach(*known, clue, stamp, params);
-  if (!placed && !seen) return std::nullopt;
-  MovingObject object = placed ? Moved(*known, cloud, clue, stamp, params)
-                               : FirstSight(id, cloud, clue, stamp, params);
-  if (seen) AddPoints(object, cloud, clue.points, stamp, params, pool);
-  return object;
 }
 
 // What of the frame says where the object is.
@@ -80,8 +45,7 @@ void ForgetFarBlocks(const Eigen::Vector3d& sensor_W, const SceneParams& params,
       {sensor_W.array() - params.keep_distance_m, sensor_W.array() + params.keep_distance_m});
 }
 
-absl::Status CheckObjects(const std::map<ObjectId, std::shared_ptr<const MovingObject>>& objects,
-                          const Frame& frame, const FrameLimits& limits) {
+absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const FrameLimits& limits) {
   if (objects.size() > limits.max_objects) {
     return absl::ResourceExhaustedError(absl::StrCat("labels: the scene would hold ",
                                                      objects.size(), " objects; the limit is ",
@@ -105,6 +69,7 @@ SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits,
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
+  if (absl::Status status = CheckParts(frame, scene_.objects); !status.ok()) return status;
 
   FrameReport report;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
@@ -113,32 +78,14 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   }
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.LastingMap();
-  std::map<ObjectId, std::shared_ptr<const MovingObject>> objects;
-  std::map<ObjectId, ObjectClue> clues = CluesOf(frame, cloud);
-  const SceneObjects named = WithoutLapsedIds(scene_.objects, clues, frame.stamp, scene_.params);
-  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues);
-  for (const auto& object : named) {
-    if (Continues(*object, clues, frame.stamp, scene_.params) &&
-        !two_after_all.contains(object->id)) {
-      objects[object->id] = object;
-    } else {
-      ForgetFreeSpaceOf(*object, static_map_W);
-      ++report.objects_dropped;
-    }
-  }
+  ClueMap clues = CluesOf(frame, cloud);
+  ObjectMap objects =
+      Continuing(scene_.objects, frame.stamp, scene_.params, clues, static_map_W, report);
   DynamicSpace dynamic_W = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
   dynamic_W = StillIn(static_map_W, dynamic_W);
   report.voxels_dynamic = dynamic_W.voxels().size();
-  for (const auto& [id, clue] : clues) {  // II-D
-    const auto known = objects.find(id);
-    std::optional<MovingObject> object =
-        Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,
-                frame.stamp, scene_.params, *pool_);
-    report.motions_ignored += !object.has_value();
-    report.objects_created += object.has_value() && known == objects.end();
-    if (object) objects[id] = std::make_shared<const MovingObject>(std::move(*object));
-  }
+  UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   if (scene_.params.reidentify) {
     report.objects_reidentified = JoinSeenAgain(objects, frame.stamp, scene_.params, *pool_);
   }

@@ -116,6 +116,7 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(static_cast<std::int64_t>(object.also.size()));
   for (const ObjectId id : object.also) Add(std::int64_t{id});
   Add(object.older_ids_told);
+  Add(std::int64_t{object.part_of});
   Add(object.map_O);
   Add(object.history);
   Add(object.velocity_O);
@@ -164,8 +165,8 @@ bool SameShape(const MovingObject& a, const MovingObject& b) {
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
   return a.id == b.id && a.also == b.also && a.older_ids_told == b.older_ids_told &&
-         a.map_O == b.map_O && a.history == b.history && a.future == b.future &&
-         a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
+         a.part_of == b.part_of && a.map_O == b.map_O && a.history == b.history &&
+         a.future == b.future && a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
          a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
          a.bound == b.bound && a.tracked_since == b.tracked_since;
@@ -208,6 +209,14 @@ const MovingObject* SceneSnapshot::FindObject(ObjectId id) const {
   const auto other = std::find_if(objects.begin(), objects.end(),
                                   [&](const auto& object) { return object->IsCalled(id); });
   return other == objects.end() ? nullptr : other->get();
+}
+
+std::vector<const MovingObject*> SceneSnapshot::PartsOf(ObjectId whole) const {
+  std::vector<const MovingObject*> parts;
+  for (const auto& object : objects) {
+    if (object->part_of == whole && whole != kStaticLabel) parts.push_back(object.get());
+  }
+  return parts;
 }
 
 std::string SceneSnapshot::Hash() const {

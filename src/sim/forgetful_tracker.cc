@@ -35,6 +35,13 @@ Frame ForgetfulTracker::Retold(Frame frame) {
   }
   std::erase_if(frame.poses, [&](const ObjectPose& p) { return !told.contains(p.id); });
   for (ObjectPose& pose : frame.poses) pose.id = told.at(pose.id);
+  // Of what it does not see it says nothing; a whole keeps its newest id.
+  std::erase_if(frame.parts, [&](const ObjectPart& part) { return !told.contains(part.id); });
+  for (ObjectPart& part : frame.parts) {
+    part.id = told.at(part.id);
+    const auto whole = tracks_.find(part.whole);
+    if (whole != tracks_.end()) part.whole = whole->second.told;
+  }
   return frame;
 }
 

@@ -17,6 +17,7 @@ SimulationSpec StreetSpec();
 SimulationSpec LabSpec();
 SimulationSpec SmallSpec();
 SimulationSpec OcclusionsSpec(std::uint64_t seed);
+SimulationSpec ArticulatedSpec();
 
 // At x, y, z, turned to the left about z.
 Pose PlacedAt(double x_m, double y_m, double z_m, double yaw_rad = 0);

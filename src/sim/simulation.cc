@@ -106,6 +106,9 @@ Frame Simulation::MakeFrameFrom(const Pose& T_W_S, std::size_t k) const {
   frame.stamp = StampOf(k);
   frame.T_W_S = T_W_S * state_->sensor_errors[k];
   state_->AddPoints(T_W_S, k, frame);
+  for (const Body& body : world().bodies()) {
+    if (body.part_of != kStaticLabel) frame.parts.push_back({body.id, body.part_of});
+  }
   if (spec().report == ObjectReport::kNothing) return frame;
   for (const ObjectErrors& object : state_->object_errors) {
     if (!state_->Reports(object.id, frame)) continue;

@@ -43,6 +43,15 @@ std::vector<ObjectId> World::ObjectIds() const {
   return ids;
 }
 
+std::vector<const Body*> World::PartsOf(ObjectId whole) const {
+  std::vector<const Body*> parts;
+  for (const Body& body : bodies_) {
+    if (whole != kStaticLabel && body.part_of == whole) parts.push_back(&body);
+  }
+  std::ranges::sort(parts, {}, &Body::id);
+  return parts;
+}
+
 const Body* World::FindObject(ObjectId id) const {
   if (id <= kStaticLabel) return nullptr;
   const auto found = std::find_if(bodies_.begin(), bodies_.end(),

@@ -74,6 +74,7 @@ class DeltaWriter {
     proto->set_object_id(object.id);
     proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
     proto->set_older_ids_told_ns(ToNanoseconds(object.older_ids_told));
+    proto->set_part_of_id(object.part_of);
     for (const StampedPose& entry : object.history) {
       proto->add_history_ns(ToNanoseconds(entry.stamp));
       Append(entry.T_W_O, proto->mutable_history_world_from_object());
@@ -111,6 +112,7 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   object.id = proto.object_id();
   object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
   object.older_ids_told = read.Stamp("older_ids_told_ns", true, proto.older_ids_told_ns());
+  object.part_of = proto.part_of_id();
   const std::vector<Pose> poses = read.Poses(
       "history_world_from_object", proto.history_world_from_object(), proto.history_ns_size());
   for (int i = 0; i < proto.history_ns_size() && read.ok(); ++i) {

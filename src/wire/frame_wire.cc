@@ -29,6 +29,7 @@ void CheckSizes(const v1::Frame& proto, const FrameLimits& limits, FieldReader& 
   read.AtMost("origins_m", proto.origins_m_size() / 3, limits.max_points);
   read.AtMost("motions", proto.motions_size(), limits.max_objects);
   read.AtMost("poses", proto.poses_size(), limits.max_objects);
+  read.AtMost("parts", proto.parts_size(), limits.max_objects);
 }
 
 void ReadMotions(const v1::Frame& proto, FieldReader& read, Frame& frame) {
@@ -45,6 +46,14 @@ void ReadMotions(const v1::Frame& proto, FieldReader& read, Frame& frame) {
     frame.poses.push_back(
         {pose.object_id(), read.ReadPose(absl::StrCat("poses[", i, "].world_from_box"),
                                          pose.has_world_from_box(), pose.world_from_box())});
+  }
+}
+
+void ReadParts(const v1::Frame& proto, FieldReader& read, Frame& frame) {
+  for (int i = 0; i < proto.parts_size() && read.ok(); ++i) {
+    const v1::ObjectPart& part = proto.parts(i);
+    read.Require(part.has_whole_id(), absl::StrCat("parts[", i, "].whole_id"), "is missing");
+    frame.parts.push_back({part.object_id(), part.whole_id()});
   }
 }
 
@@ -95,6 +104,11 @@ void Write(const Frame& frame, v1::Frame* proto) {
     out->set_object_id(pose.id);
     Write(pose.T_W_B, out->mutable_world_from_box());
   }
+  for (const ObjectPart& part : frame.parts) {
+    v1::ObjectPart* out = proto->add_parts();
+    out->set_object_id(part.id);
+    out->set_whole_id(part.whole);
+  }
 }
 
 void Write(const Frame& frame, const DepthImage& image, v1::Frame* proto) {
@@ -113,6 +127,7 @@ absl::StatusOr<Frame> ReadFrame(const std::string& field, const v1::Frame& proto
   frame.T_W_S =
       read.ReadPose("world_from_sensor", proto.has_world_from_sensor(), proto.world_from_sensor());
   ReadMotions(proto, read, frame);
+  ReadParts(proto, read, frame);
   ReadPoints(proto, limits, read, frame);
   if (!read.ok()) return read.status();
   if (absl::Status status = Validate(frame, limits); !status.ok()) {

@@ -44,10 +44,14 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   if (!object.box_O.Empty()) WriteExtent(object.extent, proto->mutable_extent_object());
   proto->set_given(object.given);
   if (object.future_end) proto->set_future_end_ns(ToNanoseconds(*object.future_end));
+  proto->set_part_of_id(object.part_of);
+  for (const ObjectInfo& part : object.parts) Write(part, proto->add_parts());
 }
 
-absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
-  FieldReader read;
+namespace {
+
+// But for its parts.
+ObjectInfo ReadAlone(const v1::ObjectInfo& proto, FieldReader& read) {
   ObjectInfo object;
   object.id = proto.object_id();
   object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
@@ -71,6 +75,16 @@ absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
   if (proto.has_extent_object()) object.extent = ReadExtent(read, proto.extent_object());
   object.given = proto.given();
   if (proto.has_future_end_ns()) object.future_end = TimeFromNanoseconds(proto.future_end_ns());
+  object.part_of = proto.part_of_id();
+  return object;
+}
+
+}  // namespace
+
+absl::StatusOr<ObjectInfo> ReadObject(const v1::ObjectInfo& proto) {
+  FieldReader read;
+  ObjectInfo object = ReadAlone(proto, read);
+  for (const v1::ObjectInfo& part : proto.parts()) object.parts.push_back(ReadAlone(part, read));
   if (!read.ok()) return read.status();
   return object;
 }

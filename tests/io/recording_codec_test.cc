@@ -93,8 +93,8 @@ TEST(RecordingCodec, RefusesRowsThatNoFrameMakes) {
   row.point_count = 3;
   EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 48 bytes"));
   row = ExampleRow();
-  row.arrays = 4;
-  EXPECT_THAT(ErrorOf(row), HasSubstr("arrays: unknown bits in 4"));
+  row.arrays = 8;
+  EXPECT_THAT(ErrorOf(row), HasSubstr("arrays: unknown bits in 8"));
   row.arrays = 1;
   EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 34 bytes"));
   row = ExampleRow();
@@ -106,6 +106,35 @@ TEST(RecordingCodec, RefusesRowsThatNoFrameMakes) {
   row = ExampleRow();
   row.poses = "x";
   EXPECT_THAT(ErrorOf(row), HasSubstr("poses: 1 bytes are not a multiple of 60"));
+}
+
+TEST(RecordingCodec, PartsStandBehindThePoints) {
+  Frame frame = DocumentedFrame();
+  frame.no_return = {0, 1};
+  frame.parts = {{3, 2}, {5, 0}};
+  const auto dut = EncodeFrame(frame, 0, 3);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->arrays, 5);
+  EXPECT_EQ(absl::BytesToHexString(Unpacked(dut->points)).substr(2 * 34),
+            "03000000020000000500000000000000");
+  const auto back = DecodeFrame(ViewOf(*dut));
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_EQ(back->parts, frame.parts);
+  EXPECT_EQ(back->no_return, frame.no_return);
+}
+
+TEST(RecordingCodec, RefusesTooManyOrBrokenParts) {
+  Frame frame = DocumentedFrame();
+  frame.parts.resize(kMaxRecordedParts + 1);
+  EXPECT_EQ(EncodeFrame(frame, 0, 3).status().code(), absl::StatusCode::kResourceExhausted);
+  EncodedRow row = ExampleRow();
+  row.arrays = 4;
+  row.points = Packed(std::string(32 + 7, '\0'));
+  EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 32 bytes and those of parts"));
+  row.points = Packed(std::string(32 + 8 * (kMaxRecordedParts + 1), '\0'));
+  EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 32 bytes and those of parts"));
+  row.points = Packed(std::string(24, '\0'));
+  EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 32 bytes and those of parts"));
 }
 
 TEST(RecordingCodec, RefusesPointsThatDoNotUnpack) {

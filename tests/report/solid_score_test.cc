@@ -92,6 +92,39 @@ TEST(SolidScore, WhatWasNotSeenDoesNotCount) {
   EXPECT_EQ(dut.overlaps().at(7)[0].FScore(), 1);
 }
 
+// Two halves that a scene takes for one object are judged by both.
+TEST(SolidScore, PartsThatTheSceneDoesNotKnowCountWithTheirWhole) {
+  auto world = std::make_shared<World>();
+  world->Add(Body::Single(7, "front", Box{{1, 1, 1}}, FixedPose{Pose::Translation(-1.5, 0, 0)}));
+  Body back = Body::Single(8, "back", Box{{1, 1, 1}}, FixedPose{Pose::Translation(-2.5, 0, 0)});
+  back.part_of = 7;
+  world->Add(back);
+  MetSurfaces met(world);
+  Frame frame;
+  frame.stamp = TestScene().stamp;
+  for (const ObjectId id : {7, 8}) {
+    for (const float x : {-0.499f, 0.499f}) {
+      for (const float y : {-0.499f, 0.499f}) {
+        for (const float z : {-0.499f, 0.499f}) {
+          frame.points_S.push_back({x + (id == 7 ? -1.5f : -2.5f), y, z});
+          frame.labels.push_back(id);
+        }
+      }
+    }
+  }
+  met.Add(frame, Pose(), TestScene());
+  SceneSnapshot scene = SceneWith(0);
+  SolidScore dut(world, scene.stamp, {seconds(0)});
+  dut.Add(scene, met);
+  EXPECT_EQ(dut.overlaps().at(7)[0].seen, 20 * 10 * 10);
+  EXPECT_EQ(dut.overlaps().at(7)[0].FScore(), 1);
+  scene.objects.push_back(BoxObject(8, {1, 1, 1}, Pose::Translation(-2.5, 0, 0), scene.stamp));
+  SolidScore apart(world, scene.stamp, {seconds(0)});
+  apart.Add(scene, met);
+  EXPECT_EQ(apart.overlaps().at(7)[0].seen, 10 * 10 * 10);
+  EXPECT_LT(apart.overlaps().at(7)[0].Precision(), 1);
+}
+
 TEST(SolidScore, OnlyWhatIsSeenAndTrueCounts) {
   SceneSnapshot scene = SceneWith(1);
   scene.stamp += seconds(1);

@@ -52,6 +52,14 @@ TEST_F(BadInput, Frames) {
       {"no stamp", [](auto& f) { f.clear_stamp_ns(); }, Code::kInvalidArgument, "frame.stamp_ns"},
       {"no sequence", [](auto& f) { f.clear_sequence(); }, Code::kInvalidArgument,
        "frame.sequence"},
+      {"no whole", [](auto& f) { f.add_parts()->set_object_id(1); }, Code::kInvalidArgument,
+       "frame.parts[0].whole_id"},
+      {"part of itself",
+       [](auto& f) {
+         f.add_parts()->set_object_id(1);
+         f.mutable_parts(0)->set_whole_id(1);
+       },
+       Code::kInvalidArgument, "frame.parts[0].whole_id"},
       {"points", [](auto& f) { f.mutable_points_m()->Resize(303, 0); }, Code::kResourceExhausted,
        "frame.points_m"},
       {"objects",

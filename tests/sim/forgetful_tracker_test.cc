@@ -70,6 +70,19 @@ TEST(ForgetfulTracker, TellsMotionsSinceItLastSawTheObject) {
   EXPECT_EQ(told.motions[1].H_W.translation, Eigen::Vector3d(0, 4, 0));
 }
 
+TEST(ForgetfulTracker, TellsPartsByTheirNewestIds) {
+  ForgetfulTracker dut(FromSeconds(0.25));
+  const auto parts = [&](double seconds, const std::vector<ObjectId>& seen) {
+    Frame frame = Showing(seconds, seen);
+    frame.parts = {{2, 1}};
+    return dut.Retold(frame).parts;
+  };
+  EXPECT_EQ(parts(0, {1, 2}), (std::vector<ObjectPart>{{2, 1}}));
+  EXPECT_TRUE(parts(0.2, {1}).empty());
+  EXPECT_EQ(parts(0.4, {1, 2}), (std::vector<ObjectPart>{{kNew, 1}}));
+  EXPECT_EQ(parts(1.0, {1, 2}), (std::vector<ObjectPart>{{kNew + 2, kNew + 1}}));
+}
+
 TEST(ForgetfulTracker, TellsPosesOfWhatItSees) {
   ForgetfulTracker dut(FromSeconds(0.25));
   (void)dut.Retold(Showing(0, {1}));

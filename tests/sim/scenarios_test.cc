@@ -76,7 +76,8 @@ std::map<ObjectId, std::size_t> MostPoints(const Simulation& simulation, std::si
 }
 
 TEST(ScenariosTest, EveryNameMakesFrames) {
-  EXPECT_THAT(ScenarioNames(), ElementsAre("crossing", "street", "lab", "small", "occlusions"));
+  EXPECT_THAT(ScenarioNames(),
+              ElementsAre("crossing", "street", "lab", "small", "occlusions", "articulated"));
   for (const std::string& name : ScenarioNames()) {
     const auto dut = MakeScenario(name);
     ASSERT_TRUE(dut.ok());
@@ -231,6 +232,60 @@ TEST(OcclusionsTest, EverySeedIsAnotherWorld) {
   };
   EXPECT_EQ(place(1), place(1));
   EXPECT_GT((place(1) - place(2)).norm(), 0.1);
+}
+
+TEST(ArticulatedTest, EveryFrameTellsParts) {
+  const auto dut = MakeScenario("articulated");
+  const std::vector<ObjectPart> parts = dut->MakeFrame(0).parts;
+  EXPECT_EQ(parts.size(), 10u);  // a trailer, eight bones, a boom
+  for (const ObjectPart& part : parts) {
+    EXPECT_EQ(dut->world().FindObject(part.id)->part_of, part.whole);
+    EXPECT_EQ(dut->world().FindObject(part.whole)->part_of, kStaticLabel);
+  }
+  EXPECT_EQ(dut->world().PartsOf(3).size(), 4u);
+  EXPECT_EQ(dut->world().PartsOf(3)[0]->id, 4);
+  EXPECT_TRUE(dut->world().PartsOf(15).empty());
+}
+
+// What belongs together may touch; whole trucks, cyclists and excavators do not.
+TEST(ArticulatedTest, NobodyRunsIntoAnything) {
+  const auto dut = MakeScenario("articulated");
+  for (const ObjectId id : dut->world().ObjectIds()) {
+    const Body& body = *dut->world().FindObject(id);
+    const ObjectId whole = body.part_of == kStaticLabel ? id : body.part_of;
+    World others;
+    for (const Body& other : dut->world().bodies()) {
+      if (other.id != whole && (other.id == 0 || other.part_of != whole)) others.Add(other);
+    }
+    for (std::size_t k = 0; k < dut->frame_count(); k += 3) {
+      const Time t = dut->StampOf(k);
+      for (const BodyPart& part : body.parts) {
+        ASSERT_EQ(others.Touched(part.shape, PoseAt(body.trajectory, t) * part.T_B_G, t),
+                  std::nullopt)
+            << body.name << " " << id << " at frame " << k;
+      }
+    }
+  }
+}
+
+TEST(ArticulatedTest, PartsHangTogether) {
+  const auto dut = MakeScenario("articulated");
+  const auto end_of = [&](ObjectId id, Time t, double along_m) {
+    return *dut->world().T_W_B(id, t) * Eigen::Vector3d(0, 0, along_m);
+  };
+  double most_bent_rad = 0;
+  for (std::size_t k = 0; k < dut->frame_count(); k += 3) {
+    const Time t = dut->StampOf(k);
+    const Pose T_tractor_trailer = Inverse(*dut->world().T_W_B(1, t)) * *dut->world().T_W_B(2, t);
+    // The hitch is 1.6 m behind the tractor's middle and 2.6 m before the trailer's.
+    EXPECT_NEAR((T_tractor_trailer * Eigen::Vector3d(2.6, 0, 0)).x(), -1.6, 0.01) << k;
+    most_bent_rad = std::max(most_bent_rad, Log(T_tractor_trailer).angular.norm());
+    for (const ObjectId thigh : {4, 6, 9, 11}) {
+      EXPECT_LT((end_of(thigh, t, 0.215) - end_of(thigh + 1, t, -0.215)).norm(), 0.005) << k;
+    }
+  }
+  EXPECT_GT(most_bent_rad, 0.5);
+  EXPECT_LT(most_bent_rad, 1.2);
 }
 
 TEST(ScenariosTest, UnknownNamesAreRefusedWithTheKnownOnes) {

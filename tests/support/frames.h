@@ -53,7 +53,7 @@ inline void AddObject(Frame& frame, ObjectId id, const Pose& T_W_B,
 }
 
 // Random frames: static clutter, objects that come, go and come back, motions, poses, neither,
-// several sensors.
+// parts of other objects.
 class RandomFrames {
  public:
   explicit RandomFrames(unsigned seed) : random_(seed) {}
@@ -78,6 +78,9 @@ class RandomFrames {
       } else if (kind == 2) {
         frame.poses.push_back({id, random_.AnyPose(6)});
       }
+    }
+    for (ObjectId part = 4; part <= 6; ++part) {
+      if (random_.Integer(0, 9) == 0) frame.parts.push_back({part, random_.Integer(0, 3)});
     }
     return frame;
   }

@@ -27,6 +27,7 @@ Frame FullFrame() {
   frame.origins_S = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   frame.motions = {{7, Pose::Translation(0.1, 0, 0), frame.stamp - FromSeconds(0.1)}};
   frame.poses = {{8, Pose::Translation(5, 0, 0)}};
+  frame.parts = {{7, 8}, {9, kStaticLabel}};
   return frame;
 }
 
@@ -56,6 +57,7 @@ void ExpectEqual(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.poses[i].id, b.poses[i].id);
     EXPECT_EQ(a.poses[i].T_W_B, b.poses[i].T_W_B);
   }
+  EXPECT_EQ(a.parts, b.parts);
 }
 
 TEST(FrameWire, Empty) {

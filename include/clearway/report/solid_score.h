@@ -31,7 +31,8 @@ struct SolidOverlap {
 
 // Collects overlaps over the versions of a scene of a simulated world. Predicted is what an object
 // fills (params.solid), where the scene predicts it. Seen is what lies both in the body and in the
-// convex hull of the voxels that rays met of it: of what no ray has met nothing is known. Voxels
+// convex hull of the voxels that rays met of it: of what no ray has met nothing is known. Parts
+// of a body that the scene does not have as objects are taken for the body's own. Voxels
 // are as large as those of the object's map, in W. One thread.
 class SolidScore {
  public:

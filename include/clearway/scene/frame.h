@@ -32,6 +32,16 @@ struct ObjectPose {
   Pose T_W_B;
 };
 
+// That an object is a part of another, which is then articulated (a truck and its trailer) or not
+// rigid (a cyclist and his legs): each part is rigid, has a label, a motion and a map of its own,
+// and together they are one object that is listed, predicted and dropped as one. The whole goes by
+// the id of its main part, which is a part of nothing.
+struct ObjectPart {
+  ObjectId id = 0;
+  ObjectId whole = 0;  // 0: a part of nothing any more
+  bool operator==(const ObjectPart&) const = default;
+};
+
 // One labelled scan with the poses and motions that belong to it. Points are expected
 // motion-compensated to `stamp`. Plain data: Validate says whether it is well formed. Points that
 // are NaN or infinite are no error: they are dropped and counted.
@@ -51,6 +61,11 @@ struct Frame {
 
   std::vector<ObjectMotion> motions;  // at most one of motion and pose per object
   std::vector<ObjectPose> poses;
+
+  // Holds until another frame says otherwise. Of objects that the scene does not have (yet) it is
+  // forgotten: a source does well to say it in every frame. Of a part without motion and pose, its
+  // whole's tells where it goes.
+  std::vector<ObjectPart> parts;
 };
 
 // Turns beyond this have no direction that one could trust.
@@ -66,9 +81,9 @@ struct FrameLimits {
 
 // INVALID_ARGUMENT or RESOURCE_EXHAUSTED, naming the field as in the wire format
 // ("motions[2].world_motion") and the limit: arrays of different lengths, labels below -1, poses
-// that are not finite or not of unit rotation, ids that occur twice, a motion that turns by more
-// than 0.9 half turns (its direction would be ambiguous), a motion that does not start before the
-// stamp.
+// that are not finite or not of unit rotation, ids that occur twice, parts of themselves or of
+// parts, a motion that turns by more than 0.9 half turns (its direction would be ambiguous), a
+// motion that does not start before the stamp.
 absl::Status Validate(const Frame& frame, const FrameLimits& limits);
 
 // INVALID_ARGUMENT for a stamp of more than 2^62 ns either way: differences of stamps must not

@@ -20,7 +20,7 @@ struct GivenObject {
   std::vector<StampedPose> future;  // as MovingObject::future
 };
 
-// Where an object will be, known or stated.
+// Where an object will be, known or stated. Other parts of the same object (Frame::parts) go along.
 struct ObjectFuture {
   ObjectId id = 0;
   std::vector<StampedPose> poses;  // none: what was stated before is withdrawn

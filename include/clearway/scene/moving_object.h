@@ -72,6 +72,8 @@ struct MovingObject {
   // Of such an object: when a frame last named it by another id than the newest. After the object
   // lifetime a frame that uses one of those means another object by it.
   Time older_ids_told;
+  // The object that it is a part of (Frame::parts); kStaticLabel: of none.
+  ObjectId part_of = kStaticLabel;
   VoxelMap map_O{0.1};  // hits in O
   // Of a given object, which was told and not seen (see given_object.h): in O, never a
   // TriangleMesh. Null for a reconstructed one.
@@ -89,7 +91,8 @@ struct MovingObject {
   // without a future.
   Twist future_velocity_O;
   // Constant body-frame velocity of its motion (rad/s, m/s at O's origin), of the last one or of
-  // its track (MotionModel); none while no motion is known.
+  // its track (MotionModel), or that of the whole that it is a part of; none while no motion is
+  // known.
   std::optional<Twist> velocity_O;
   // Of its predictions, from the last pose that is known or stated on: what is stated is taken as
   // it is. Of a given object none, as long as no frame moves it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "clearway/scene/moving_object.h"
 
@@ -22,5 +23,13 @@ struct ObjectExtent {
 // Freeman and Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed
 // Curve", 1975.
 ObjectExtent ExtentOf(const MovingObject& object);
+
+// A part of an object (MovingObject::part_of), P being its frame.
+struct PlacedPart {
+  const MovingObject* object;
+  Pose T_O_P;
+};
+// The same around the object and its parts.
+ObjectExtent ExtentOf(const MovingObject& object, std::span<const PlacedPart> parts);
 
 }  // namespace clearway

@@ -46,8 +46,9 @@ class SceneBuilder {
   SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool);
 
   // Applies the frame whole, or refuses it whole and changes nothing: what Validate(frame) refuses;
-  // FAILED_PRECONDITION for a stamp before the scene's newest; RESOURCE_EXHAUSTED for more objects
-  // than FrameLimits allows; INVALID_ARGUMENT for poses outside the addressable space.
+  // FAILED_PRECONDITION for a stamp before the scene's newest, and for parts of parts;
+  // RESOURCE_EXHAUSTED for more objects than FrameLimits allows; INVALID_ARGUMENT for poses outside
+  // the addressable space.
   absl::StatusOr<FrameReport> Apply(const Frame& frame);
 
   // The scene so far as an immutable version. Versions count from 1; without a change since, the
@@ -71,7 +72,8 @@ class SceneBuilder {
   // meshes of more than kMaxGivenTriangles.
   absl::Status AddObject(const GivenObject& object);
   absl::Status AddObjects(std::span<const GivenObject> objects);
-  // Leaves nothing behind. NOT_FOUND for ids that are of no given object.
+  // Leaves nothing behind; given parts of the object go with it. NOT_FOUND for ids that are of no
+  // given object.
   absl::Status RemoveObject(ObjectId id);
   absl::Status RemoveObjects(std::span<const ObjectId> ids);
   // Of any object. Poses whose time has come are forgotten, and with the last of them the object's

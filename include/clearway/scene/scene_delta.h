@@ -28,6 +28,7 @@ struct ObjectDelta {
   ObjectId id = 0;
   std::vector<ObjectId> also;
   Time older_ids_told;
+  ObjectId part_of = kStaticLabel;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::vector<StampedPose> history;
   std::vector<StampedPose> future;

@@ -43,6 +43,9 @@ struct SceneSnapshot {
   // By any of its ids; null if there is none.
   const MovingObject* FindObject(ObjectId id) const;
 
+  // Of the object of that id, ascending ids.
+  std::vector<const MovingObject*> PartsOf(ObjectId whole) const;
+
   // 32 hex digits (XXH3-128): equal scenes have equal hashes on every machine and with any
   // number of threads. Covers all but `version`.
   std::string Hash() const;

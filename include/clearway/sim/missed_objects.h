@@ -11,4 +11,8 @@ namespace clearway {
 // of their motions and poses.
 Frame WithoutObjects(Frame frame, const std::set<ObjectId>& missed);
 
+// The frame of a source that takes objects of several parts for rigid ones: it says the main part's
+// motion of all of it.
+Frame WithoutParts(Frame frame);
+
 }  // namespace clearway

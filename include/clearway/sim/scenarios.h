@@ -33,6 +33,10 @@ struct ScenarioOptions {
 // small: a box, a cylinder and a wedge before a wall, seen by a small LiDAR: quick, for tests.
 // occlusions: traffic, cyclists and pedestrians who go out of a LiDAR's sight behind walls and each
 //   other, 20 s at 10 Hz; another world for each seed. 0.1 m voxels.
+// articulated: a truck whose trailer follows round a bend, cyclists who pedal, an excavator that
+// swings
+//   its boom, each part an object of its own that is told to be a part; a LiDAR that stands, 12 s
+//   at 10 Hz. 0.1 m voxels.
 std::vector<std::string> ScenarioNames();
 
 // NOT_FOUND for an unknown name, listing the known ones; INVALID_ARGUMENT naming the option.

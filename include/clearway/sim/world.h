@@ -26,7 +26,8 @@ struct Body {
   ObjectId id = kStaticLabel;  // 0: part of the static world; else unique and above 0
   std::string name = {};       // for people
   std::vector<BodyPart> parts = {};
-  Trajectory trajectory = {};  // of B; bodies with id 0 must be FixedPose
+  Trajectory trajectory = {};       // of B; bodies with id 0 must be FixedPose
+  ObjectId part_of = kStaticLabel;  // the object whose part it is, if of one
 
   static Body Single(ObjectId id, std::string name, Shape shape, Trajectory trajectory);
 
@@ -49,6 +50,8 @@ class World {
 
   // The ids above 0, ascending.
   std::vector<ObjectId> ObjectIds() const;
+  // Of that object, ascending ids.
+  std::vector<const Body*> PartsOf(ObjectId whole) const;
   // Null if there is no such object, or for id 0.
   const Body* FindObject(ObjectId id) const;
 

@@ -36,9 +36,13 @@ struct ObjectInfo {
   bool at_rest = false, bridged = false;
   bool given = false;
   std::optional<Time> future_end;
+  ObjectId part_of = kStaticLabel;  // see MovingObject
+  // Its parts, by ascending ids; boxes and extent are then around all of them, and last_seen is the
+  // newest of theirs.
+  std::vector<ObjectInfo> parts;
 };
 struct ObjectList : Versioned {
-  std::vector<ObjectInfo> objects;  // ascending ids
+  std::vector<ObjectInfo> objects;  // ascending ids; parts of others are with these
 };
 
 struct PointAnswers : Versioned {

@@ -1,0 +1,71 @@
+#include "scene/group_motion.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/object_motion.h"
+
+namespace clearway {
+namespace {
+
+// The velocity of the same rigid motion in another frame. Murray, Li, Sastry, "A Mathematical
+// Introduction to Robotic Manipulation", 1994, section 2.4 (adjoint transformation).
+Twist InFrame(const Pose& T_P_O, const Twist& velocity_O) {
+  const Eigen::Vector3d angular_P = T_P_O.rotation * velocity_O.angular;
+  return {angular_P, T_P_O.rotation * velocity_O.linear + T_P_O.translation.cross(angular_P)};
+}
+
+// With what velocity (in P) a part went on with the leader, as that was known by then; none if too
+// little of it was.
+std::optional<Twist> VelocityAlong(const StampedPose& part, const MovingObject& leader,
+                                   const SceneParams& params) {
+  const auto& history = leader.history;
+  const auto later = std::ranges::upper_bound(history, part.stamp, {}, &StampedPose::stamp);
+  const std::span past(history.begin(), later);
+  if (past.size() < 2) return std::nullopt;
+  const Twist last_motion_O = VelocityBetween(past[past.size() - 2], past.back());
+  const Twist velocity_O = GoesOn(past, last_motion_O, *leader.solid, params);
+  const Pose T_W_O = PredictPose(leader, part.stamp, params.horizon).T_W_O;
+  return InFrame(Inverse(part.T_W_O) * T_W_O, velocity_O);
+}
+
+// Whether the part was clearly better predicted by itself, in enough cases to be no chance.
+bool IsBetterByItself(const PastMisses& by_itself, const PastMisses& along) {
+  constexpr int kFewest = 4;
+  constexpr double kClearly = 0.5;  // of squares of distances
+  return by_itself.half.count() >= kFewest &&
+         by_itself.half.sum_m2() + by_itself.whole.sum_m2() <
+             kClearly * (along.half.sum_m2() + along.whole.sum_m2());
+}
+
+}  // namespace
+
+MovingObject WithFutureOf(MovingObject part, const MovingObject& leader, const Pose& T_O_P) {
+  part.future = FutureAfter(leader.future, part.t_k());
+  for (StampedPose& pose : part.future) pose.T_W_O = pose.T_W_O * T_O_P;
+  part.future_velocity_O =
+      part.future.empty() ? Twist{} : InFrame(Inverse(T_O_P), leader.future_velocity_O);
+  return part;
+}
+
+MovingObject GoingAlong(MovingObject part, const MovingObject& leader, const SceneParams& params) {
+  const auto by_itself = [&](std::span<const StampedPose> past) {
+    return GoesOn(past, VelocityBetween(past[past.size() - 2], past.back()), *part.solid, params);
+  };
+  const auto along = [&](std::span<const StampedPose> past) {
+    const std::optional<Twist> velocity_P = VelocityAlong(past.back(), leader, params);
+    return velocity_P ? *velocity_P : by_itself(past);
+  };
+  const Pose T_O_P = Inverse(leader.history.back().T_W_O) * part.history.back().T_W_O;
+  const PastMisses misses_by_itself =
+      MissesOf(part.history, part.tracked_since, *part.solid, by_itself);
+  const PastMisses misses_along = MissesOf(part.history, part.tracked_since, *part.solid, along);
+  const bool alone = leader.future.empty() && part.velocity_O && part.history.size() > 1 &&
+                     IsBetterByItself(misses_by_itself, misses_along);
+  part.velocity_O = alone ? by_itself(part.history) : InFrame(Inverse(T_O_P), *leader.velocity_O);
+  part.bound =
+      BoundBy(alone ? misses_by_itself : misses_along, part.history.size() > 1, *part.velocity_O);
+  return WithFutureOf(std::move(part), leader, T_O_P);
+}
+
+}  // namespace clearway
