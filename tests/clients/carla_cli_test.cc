@@ -93,7 +93,7 @@ TEST_F(CarlaScans, EvaluateJudgesByActors) {
 
 TEST_F(CarlaScans, ErrorsNameTheLine) {
   folder_.Write("000400.ply", "ply\nformat binary_little_endian 1.0\n");
-  const Finished dut = Local({"replay", path()});
+  const Finished dut = Local({"info", path()});
   EXPECT_NE(dut.exit_code, 0);
   EXPECT_THAT(dut.err, HasSubstr("000400.ply, line 2: format binary_little_endian"));
 }
