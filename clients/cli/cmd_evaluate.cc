@@ -104,8 +104,9 @@ void AddEvaluate(Cli& cli) {
                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
   command
       ->add_option("input", flags->spec,
-                   "A folder of LiDAR scans with boxes, a KITTI or TUM RGB-D\nsequence with poses "
-                   "of objects, DynoSAM's logs, or\nsim:NAME: they know the truth")
+                   "A folder of LiDAR scans with boxes (CARLA's, too), a\nKITTI, TUM RGB-D or "
+                   "ClusterSLAM sequence with poses of\nobjects, DynoSAM's logs, or sim:NAME: they "
+                   "know the truth")
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))

@@ -54,8 +54,8 @@ void AddInfo(Cli& cli) {
   command
       ->add_option(
           "input", flags->spec,
-          "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, DynoSAM's "
-          "logs, an OctoMap file (.bt, .ot), or\nsim:NAME")
+          "A recording, a folder of LiDAR scans (CARLA's, too), a\nKITTI, TUM RGB-D or ClusterSLAM "
+          "sequence, DynoSAM's\nlogs, an OctoMap file (.bt, .ot), or sim:NAME")
       ->required();
   command
       ->add_option("--poses", flags->source.poses,

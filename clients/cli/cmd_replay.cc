@@ -170,8 +170,8 @@ void AddReplay(Cli& cli) {
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
   command
       ->add_option("source", flags->spec,
-                   "A recording, a folder of LiDAR scans, a KITTI or TUM RGB-D\nsequence, "
-                   "DynoSAM's logs, or sim:NAME (a scenario of\n'simulate')")
+                   "A recording, a folder of LiDAR scans (CARLA's, too), a\nKITTI, TUM RGB-D or "
+                   "ClusterSLAM sequence, DynoSAM's\nlogs, or sim:NAME (a scenario of 'simulate')")
       ->required();
   command
       ->add_option(

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/carla.h"
+#include "clearway/io/cluster_slam.h"
 #include "clearway/io/dynosam.h"
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
@@ -40,6 +42,13 @@ absl::StatusOr<LidarFolder> OpenTum(const std::string& path, const SourceFlags& 
                             .allow_missing_points = allow_missing_points,
                             .stride = flags.stride,
                             .max_depth_m = flags.max_depth_m});
+}
+
+absl::StatusOr<LidarFolder> OpenCluster(const std::string& path, const SourceFlags& flags,
+                                        bool allow_missing_points) {
+  return OpenClusterSlam(path, {.objects = LidarObjectsOf(flags.objects),
+                                .allow_missing_points = allow_missing_points,
+                                .max_depth_m = flags.max_depth_m});
 }
 
 }  // namespace
@@ -100,7 +109,7 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
       ->group("Source");
   command
       ->add_option("--max-depth", flags->max_depth_m,
-                   "Of a TUM RGB-D sequence's images, leave out what is\nfarther, in metres")
+                   "Of a TUM RGB-D or ClusterSLAM sequence, leave out what is\nfarther, in metres")
       ->check(Between(0.001, 1e6))
       ->group("Source");
   AddSimulationFlags(command, flags);
@@ -144,10 +153,12 @@ absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlag
     return OpenDynosam(path, {.objects = LidarObjectsOf(flags.objects),
                               .allow_missing_points = allow_missing_points});
   }
+  if (IsClusterSlam(path)) return OpenCluster(path, flags, allow_missing_points);
   LidarFolderOptions options;
   options.poses = LidarPosesOf(flags.poses);
   options.objects = LidarObjectsOf(flags.objects);
   options.allow_missing_points = allow_missing_points;
+  if (IsCarla(path)) return OpenCarla(path, options);
   return IsKittiTracking(path) ? OpenKittiTracking(path, options) : OpenLidarFolder(path, options);
 }
 

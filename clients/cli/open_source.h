@@ -25,7 +25,7 @@ struct SourceFlags {
   bool allow_missing_points = false;
   // LiDAR folders.
   std::string poses = "any";
-  // TUM RGB-D sequences.
+  // TUM RGB-D sequences; the second of ClusterSLAM's, too.
   std::uint32_t stride = 1;
   std::optional<double> max_depth_m;
   // All of them.
@@ -42,8 +42,8 @@ SourceKind KindOf(const std::string& spec);
 // "sim:crossing", or "crossing"; NOT_FOUND lists the scenarios.
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags);
 
-// Of LiDAR scans, a sequence of KITTI's tracking benchmark or TUM's RGB-D benchmark, or DynoSAM's
-// logs.
+// Of LiDAR scans, also of CARLA's, a sequence of KITTI's tracking benchmark, TUM's RGB-D benchmark
+// or the ClusterSLAM dataset, or DynoSAM's logs.
 // `allow_missing_points`: as in LidarFolderOptions.
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points);

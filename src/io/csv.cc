@@ -157,15 +157,23 @@ double CsvRow::Number(std::size_t column) {
   return value;
 }
 
-std::int64_t CsvRow::Integer(std::size_t column, std::int64_t min, std::int64_t max) {
-  std::int64_t value = 0;
-  if (!ParseWhole(Text(column), value) || value < min || value > max) {
-    Fail(column, absl::StrCat("an integer from ", min, " to ", max).c_str());
+double CsvRow::NumberWithin(std::size_t column, double limit) {
+  const double value = Number(column);
+  if (!(std::abs(value) <= limit)) {
+    Fail(column, absl::StrCat("a number from ", -limit, " to ", limit));
   }
   return value;
 }
 
-void CsvRow::Fail(std::size_t column, const char* expected) {
+std::int64_t CsvRow::Integer(std::size_t column, std::int64_t min, std::int64_t max) {
+  std::int64_t value = 0;
+  if (!ParseWhole(Text(column), value) || value < min || value > max) {
+    Fail(column, absl::StrCat("an integer from ", min, " to ", max));
+  }
+  return value;
+}
+
+void CsvRow::Fail(std::size_t column, const std::string& expected) {
   if (!status_.ok()) return;
   status_ = absl::InvalidArgumentError(absl::StrCat(table_.Where(row_, column), ": '",
                                                     Excerpt(Text(column)), "' is not ", expected));

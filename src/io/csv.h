@@ -44,6 +44,8 @@ class CsvRow {
 
   // A finite number.
   double Number(std::size_t column);
+  // Within a limit either way.
+  double NumberWithin(std::size_t column, double limit);
   // An integer in [min, max].
   std::int64_t Integer(std::size_t column, std::int64_t min, std::int64_t max);
   const std::string& Text(std::size_t column) const { return table_.Text(row_, column); }
@@ -51,7 +53,7 @@ class CsvRow {
   const absl::Status& status() const { return status_; }
 
  private:
-  void Fail(std::size_t column, const char* expected);
+  void Fail(std::size_t column, const std::string& expected);
 
   const CsvTable& table_;
   std::size_t row_;

@@ -162,20 +162,12 @@ std::shared_ptr<const Content> ContentOf(Logs& logs, const DynosamOptions& optio
   return content;
 }
 
-absl::Status CheckPeriod(Duration period) {
-  constexpr Duration kLongest = std::chrono::seconds(10);
-  if (period > Duration::zero() && period <= kLongest) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("frame_period: is ", period.count(),
-                                                 " ns; it must be above 0 and at most ",
-                                                 kLongest.count(), " ns"));
-}
-
 }  // namespace
 
 bool IsDynosam(const Path& path) { return !absl::IsNotFound(FindDynosamModule(path).status()); }
 
 absl::StatusOr<LidarFolder> OpenDynosam(const Path& given, const DynosamOptions& options) {
-  if (auto status = CheckPeriod(options.frame_period); !status.ok()) return status;
+  if (auto status = CheckFramePeriod(options.frame_period); !status.ok()) return status;
   std::error_code error;
   const auto module = FindDynosamModule(std::filesystem::absolute(given, error).lexically_normal());
   if (!module.ok()) return module.status();

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "io/lidar_frames.h"
 #include "io/number_rows.h"
 
 namespace clearway {
@@ -136,11 +137,6 @@ absl::StatusOr<DynosamObjects> ReadDynosamObjects(const Path& path) {
   });
   if (!status.ok()) return status;
   return objects;
-}
-
-const RecordedPose* PoseOf(const std::vector<RecordedPose>& poses, std::int64_t frame) {
-  const auto found = std::ranges::lower_bound(poses, frame, {}, &RecordedPose::frame);
-  return found != poses.end() && found->frame == frame ? &*found : nullptr;
 }
 
 absl::StatusOr<DynosamPoints> ReadDynosamPoints(const Path& path,

@@ -48,7 +48,4 @@ struct DynosamPoints {
 absl::StatusOr<DynosamPoints> ReadDynosamPoints(const std::filesystem::path& path,
                                                 const std::vector<RecordedPose>& poses);
 
-// The pose of a frame; null if there is none.
-const RecordedPose* PoseOf(const std::vector<RecordedPose>& poses, std::int64_t frame);
-
 }  // namespace clearway

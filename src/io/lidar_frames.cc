@@ -98,6 +98,19 @@ std::vector<Row> InRange(const std::vector<Row>& rows, const LidarFolderOptions&
 
 }  // namespace
 
+const RecordedPose* PoseOf(const std::vector<RecordedPose>& poses, std::int64_t frame) {
+  const auto found = std::ranges::lower_bound(poses, frame, {}, &RecordedPose::frame);
+  return found != poses.end() && found->frame == frame ? &*found : nullptr;
+}
+
+absl::Status CheckFramePeriod(Duration period) {
+  constexpr Duration kLongest = std::chrono::seconds(10);
+  if (period > Duration::zero() && period <= kLongest) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("frame_period: is ", period.count(),
+                                                 " ns; it must be above 0 and at most ",
+                                                 kLongest.count(), " ns"));
+}
+
 absl::StatusOr<LidarFolder> FramesOf(LidarScans scans) {
   const LidarFolderOptions options = scans.options;
   LidarFolder result;

@@ -1,6 +1,7 @@
 // What folders of LiDAR scans have in common, whatever the format of their files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -25,6 +26,12 @@ struct LidarScans {
                              std::span<const RecordedBox> boxes, Frame& frame)>
       read;
 };
+
+// The pose of a frame; null if there is none.
+const RecordedPose* PoseOf(const std::vector<RecordedPose>& poses, std::int64_t frame);
+
+// Of sources without stamps: INVALID_ARGUMENT if it is not above 0, or above 10 s.
+absl::Status CheckFramePeriod(Duration period);
 
 // The frames of the options' range. INVALID_ARGUMENT if there are none, NOT_FOUND if points are
 // missing and may not.

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/csv.h"
+#include "io/lidar_frames.h"
 #include "io/rigid_matrix.h"
 
 namespace clearway {
@@ -84,12 +85,6 @@ absl::StatusOr<RecordedBox> ReadBox(const CsvTable& table, std::size_t row,
   return box;
 }
 
-bool HasFrame(const std::vector<RecordedPose>& poses, int frame) {
-  const auto it = std::partition_point(poses.begin(), poses.end(),
-                                       [&](const auto& pose) { return pose.frame < frame; });
-  return it != poses.end() && it->frame == frame;
-}
-
 auto KeyOf(const RecordedBox& box) { return std::tie(box.frame, box.id); }
 
 }  // namespace
@@ -153,7 +148,7 @@ absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::p
   for (std::size_t row = 0; row < table->rows(); ++row) {
     absl::StatusOr<RecordedBox> box = ReadBox(*table, row, *columns);
     if (!box.ok()) return box.status();
-    if (!HasFrame(poses, box->frame)) {
+    if (PoseOf(poses, box->frame) == nullptr) {
       return absl::InvalidArgumentError(absl::StrCat(table->Where(row, columns->fields[0]),
                                                      ": frame ", box->frame,
                                                      " has no pose of the sensor"));

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/file.h"
+#include "io/word_lines.h"
 
 namespace clearway {
 namespace {
@@ -16,15 +17,6 @@ static_assert(std::endian::native == std::endian::little, "scan graphs are littl
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
 constexpr double kUnitTolerance = 1e-3;
 constexpr std::size_t kPointBytes = 28;  // the number of coordinates, and as many doubles
-
-// Takes the next blank-separated word off the front of the line.
-std::string_view TakeWord(std::string_view& line) {
-  constexpr std::string_view kBlank = " \t\r";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(word.size());
-  return word;
-}
 
 bool ParsePoint(std::string_view line, Eigen::Vector3f& point) {
   for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,6 @@
 #include "io/word_lines.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -117,6 +118,14 @@ absl::StatusOr<std::vector<Words>> ReadWordLines(const std::filesystem::path& pa
     lines.emplace_back(absl::StrCat(path.string(), ", line ", number), std::move(words));
   }
   return lines;
+}
+
+std::string_view TakeWord(std::string_view& line) {
+  constexpr std::string_view kBlank = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
+  line.remove_prefix(word.size());
+  return word;
 }
 
 }  // namespace clearway

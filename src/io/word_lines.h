@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -53,5 +54,8 @@ enum class Comments { kNone, kHash };
 // that seems cut off.
 absl::StatusOr<std::vector<Words>> ReadWordLines(const std::filesystem::path& path, LastLine last,
                                                  Comments comments = Comments::kNone);
+
+// Takes the next word off the front of a line; empty if there is none.
+std::string_view TakeWord(std::string_view& line);
 
 }  // namespace clearway

@@ -1,0 +1,91 @@
+// Sequences that are incomplete or damaged.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "absl/strings/str_replace.h"
+#include "io/cluster_slam_example.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ClusterSlamRefusal : public ClusterSlam {
+ protected:
+  // Of the sequence with that in one of its files, which is then as it was.
+  absl::Status StatusWith(const std::string& file, const std::string& bytes) {
+    const std::string before = BytesOf(folder_ / file);
+    folder_.Write(file, bytes);
+    auto opened = Open();
+    if (opened.ok()) opened = absl::StatusOr<LidarFolder>(opened->frames.read(0).status());
+    folder_.Write(file, before);
+    return opened.status();
+  }
+  std::string ErrorWith(const std::string& file, const std::string& bytes) {
+    const absl::Status status = StatusWith(file, bytes);
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_THAT(std::string(status.message()), HasSubstr(file));
+    return std::string(status.message());
+  }
+};
+
+TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
+  const std::string poses = BytesOf(folder_ / "pose/0001.txt");
+  EXPECT_THAT(ErrorWith("pose/0001.txt", ""), HasSubstr("no pose of the camera"));
+  EXPECT_THAT(ErrorWith("pose/0001.txt", poses + "0 0 0 1 0 0 0\n"),
+              HasSubstr("0001.txt: 4 poses; frame 0 has 3"));
+  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 0 0 1 0 0\n"), HasSubstr("line 1: 6 words, expected"));
+  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 0 0 1 0 0 1\n"),
+              HasSubstr("line 1, words 4 to 7: no unit quaternion, its length is 1.41"));
+  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 nan 0 1 0 0 0\n"), HasSubstr("line 1, word 2: 'nan'"));
+  EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2\n1 3\n"),
+              HasSubstr("line 2: landmark 1 occurs twice"));
+  EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 -2\n"), HasSubstr("line 1, word 2: '-2'"));
+  EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
+  EXPECT_THAT(ErrorWith("landmarks/left/0000.txt", "1 2\n"), HasSubstr("line 1: 2 words"));
+  EXPECT_THAT(ErrorWith("landmarks/right/0000.txt", "1 2 x\n"), HasSubstr("word 3: 'x'"));
+  EXPECT_THAT(ErrorWith("landmarks/right/0000.txt", "1 2 3\n1 2 3\n"), HasSubstr("occurs twice"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", "1 0 0 0\n"), HasSubstr("1 lines of numbers, expected"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", std::string("0") + kClusterCameras + "1 2 3"),
+              HasSubstr("7 lines"));
+  const std::string cameras = kClusterCameras;
+  EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"-250", "0"}})),
+              HasSubstr("the cameras are 0 m apart"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"0 0 1", "0 1 1"}})),
+              HasSubstr("the first matrix is no pinhole's"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"500", "-500"}})),
+              HasSubstr("the first matrix is no pinhole's"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"320 0", "320"}})),
+              HasSubstr("line 1: 3 words, expected 4 numbers"));
+}
+
+TEST_F(ClusterSlamRefusal, SaysWhatIsMissing) {
+  for (const char* name : {"landmarks/left/0002.txt", "landmark_mapping.txt", "intrinsic.txt"}) {
+    const std::string before = BytesOf(folder_ / name);
+    std::filesystem::remove(folder_ / name);
+    const absl::Status status = Open().status();
+    EXPECT_TRUE(absl::IsNotFound(status)) << status;
+    EXPECT_THAT(std::string(status.message()), HasSubstr(name));
+    folder_.Write(name, before);
+  }
+  std::filesystem::remove_all(folder_ / "pose");
+  EXPECT_TRUE(absl::IsNotFound(Open().status())) << Open().status();
+}
+
+TEST_F(ClusterSlamRefusal, GarbageDoesNoHarm) {
+  std::mt19937 random(3);
+  for (const char* name : {"landmarks/left/0000.txt", "landmark_mapping.txt", "intrinsic.txt",
+                           "pose/0000.txt", "landmarks/right/0000.txt"}) {
+    const std::string whole = BytesOf(folder_ / name);
+    for (int i = 0; i < 50; ++i) {
+      std::string damaged = whole.substr(0, random() % whole.size() + 1);
+      for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
+      const absl::Status status = StatusWith(name, damaged);
+      EXPECT_TRUE(status.ok() || absl::IsInvalidArgument(status)) << status;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clearway
