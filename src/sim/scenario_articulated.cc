@@ -150,7 +150,7 @@ void AddExcavator(World& world, ObjectId base, ObjectId boom) {
 void AddStaticWorld(World& world) {
   world.Add(Ground(0, 0, 160));
   world.Add(StaticBox("wall", PlacedAt(0, 48.03, 2.2), {90, 0.4, 4.6}));
-  world.Add(StaticBox("shed", PlacedAt(-16, -18, 1.6), {9, 6, 3.4}));
+  world.Add(StaticBox("shed", PlacedAt(-28, -18, 1.6), {9, 6, 3.4}));
   world.Add(Pole("lamp", 14, 1.5, 0.12, 5));
 }
 
