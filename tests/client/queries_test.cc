@@ -38,6 +38,16 @@ class QueriesTest : public testing::Test {
   testing_support::Random random_{4};
 };
 
+// What a list holds, parts and all.
+std::vector<ObjectInfo> WithParts(const ObjectList& list) {
+  std::vector<ObjectInfo> objects;
+  for (const ObjectInfo& object : list.objects) {
+    objects.push_back(object);
+    objects.insert(objects.end(), object.parts.begin(), object.parts.end());
+  }
+  return objects;
+}
+
 TEST_F(QueriesTest, Points) {
   std::vector<Eigen::Vector3f> points;
   std::vector<Eigen::Vector3d> same;
@@ -128,18 +138,21 @@ TEST_F(QueriesTest, Rays) {
 TEST_F(QueriesTest, ObjectsAndPredictions) {
   const auto list = dut_.ListObjects();
   ASSERT_TRUE(list.ok()) << list.status();
-  ASSERT_EQ(list->objects.size(), scene_->objects.size());
-  for (std::size_t i = 0; i < scene_->objects.size(); ++i) {
-    const MovingObject& truth = *scene_->objects[i];
-    EXPECT_EQ(list->objects[i].id, truth.id);
-    EXPECT_EQ(list->objects[i].T_W_O, truth.history.back().T_W_O);
-    EXPECT_EQ(list->objects[i].frames_seen, truth.frames_seen);
-    EXPECT_EQ(list->objects[i].occupied_voxels, truth.map_O.occupied_count());
-    EXPECT_EQ(list->objects[i].velocity_O, truth.velocity_O);
-    EXPECT_EQ(list->objects[i].bound.value_or(PositionBound{}), truth.bound);
-    EXPECT_EQ(list->objects[i].extent.size_m, ExtentOf(truth).size_m);
-    EXPECT_EQ(list->objects[i].extent.center_O, ExtentOf(truth).center_O);
-    EXPECT_EQ(list->objects[i].extent.yaw_rad, ExtentOf(truth).yaw_rad);
+  const std::vector<ObjectInfo> objects = WithParts(*list);
+  ASSERT_EQ(objects.size(), scene_->objects.size());
+  for (const ObjectInfo& object : objects) {
+    const MovingObject& truth = *scene_->FindObject(object.id);
+    EXPECT_EQ(object.T_W_O, truth.history.back().T_W_O);
+    EXPECT_EQ(object.part_of, truth.part_of);
+    EXPECT_EQ(object.frames_seen, truth.frames_seen);
+    EXPECT_EQ(object.occupied_voxels, truth.map_O.occupied_count());
+    EXPECT_EQ(object.velocity_O, truth.velocity_O);
+    EXPECT_EQ(object.bound.value_or(PositionBound{}), truth.bound);
+    EXPECT_EQ(dut_.GetObject(truth.id)->id, truth.id);
+    if (!object.parts.empty()) continue;  // its boxes and when it was seen are of all of it
+    EXPECT_EQ(object.extent.size_m, ExtentOf(truth).size_m);
+    EXPECT_EQ(object.extent.center_O, ExtentOf(truth).center_O);
+    EXPECT_EQ(object.extent.yaw_rad, ExtentOf(truth).yaw_rad);
     EXPECT_EQ(dut_.GetObject(truth.id)->last_seen, truth.last_seen);
   }
   const auto poses = dut_.PredictPoses({}, times_);
@@ -187,7 +200,7 @@ TEST_F(QueriesTest, ALeaseHoldsItsVersion) {
   const auto held = dut_.ListObjects({.min_version = 0, .lease_id = lease->id});
   ASSERT_TRUE(held.ok()) << held.status();
   EXPECT_EQ(held->version, scene_->version);
-  EXPECT_EQ(held->objects.size(), scene_->objects.size());
+  EXPECT_EQ(WithParts(*held).size(), scene_->objects.size());
   ASSERT_TRUE(dut_.ReleaseLease(lease->id).ok());
   const absl::Status gone = dut_.ListObjects({.min_version = 0, .lease_id = lease->id}).status();
   EXPECT_TRUE(absl::IsFailedPrecondition(gone));
