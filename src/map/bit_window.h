@@ -14,10 +14,15 @@ namespace clearway {
 // one addition to the index of the bit. One thread at a time.
 class BitWindow {
  public:
+  enum class AtRest : bool { kClear, kSet };
+  // How bits are that nobody has changed. TakeRow is for windows that are clear at rest.
+  explicit BitWindow(AtRest at_rest = AtRest::kClear) : at_rest_(at_rest) {}
+
   // Whether a window from block `first` to block `last` is small enough to be worth its memory.
   static bool Fits(BlockKey first, BlockKey last);
 
-  // Takes the blocks [first, last], which must fit. All bits are clear; memory is kept from before.
+  // Takes the blocks [first, last], which must fit. All bits must be as at rest; memory is kept
+  // from before.
   void Cover(BlockKey first, BlockKey last);
 
   std::int32_t IndexOf(VoxelKey key) const {
@@ -32,6 +37,9 @@ class BitWindow {
 
   bool Test(VoxelKey key) const { return words_[IndexOf(key) >> 5] >> (IndexOf(key) & 31) & 1; }
   void Set(VoxelKey key) { words_[IndexOf(key) >> 5] |= std::uint32_t{1} << (IndexOf(key) & 31); }
+  void Clear(VoxelKey key) {
+    words_[IndexOf(key) >> 5] &= ~(std::uint32_t{1} << (IndexOf(key) & 31));
+  }
 
   // Whether all voxels from `min` to `max` are set; false if one of them lies outside the window.
   bool AllSet(VoxelKey min, VoxelKey max) const;
@@ -50,6 +58,7 @@ class BitWindow {
 
   std::uint32_t* Row(std::size_t row, int line);
 
+  AtRest at_rest_;
   BlockKey first_;
   BlockKey size_;  // in blocks; along x a multiple of kBlocksPerWord
   VoxelKey low_;

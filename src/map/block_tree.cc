@@ -70,9 +70,11 @@ const VoxelBlock* BlockTree::Find(BlockKey key) const {
   return leaf == nullptr ? nullptr : &leaf->block;
 }
 
+template <bool kOccupied>
 void BlockTree::FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const {
   constexpr std::size_t kAtOnce = 64;  // memory accesses under way
   static const Lower kNone;
+  static const LeafPtr kNoLeaf;
   for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
     const std::size_t end = std::min(begin + kAtOnce, keys.size());
     const LeafPtr* places[kAtOnce];
@@ -82,24 +84,35 @@ void BlockTree::FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) 
         lower = FindLower(keys[i]);
         if (lower == nullptr) lower = &kNone;
       }
-      places[i - begin] = &lower->children[Slot(keys[i], 0)];
+      const int slot = Slot(keys[i], 0);
+      const bool wanted = !kOccupied || (lower->occupied >> slot & 1) != 0;
+      places[i - begin] = wanted ? &lower->children[slot] : &kNoLeaf;
       __builtin_prefetch(places[i - begin]);
     }
     for (std::size_t i = begin; i < end; ++i) leaves[i] = places[i - begin]->get();
   }
 }
 
-void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+template <bool kOccupied>
+void BlockTree::FindBlocks(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
   constexpr std::size_t kAtOnce = 256;
   const Leaf* leaves[kAtOnce];
   for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
     const std::size_t count = std::min(kAtOnce, keys.size() - begin);
-    FindLeaves(keys.subspan(begin, count), leaves);
+    FindLeaves<kOccupied>(keys.subspan(begin, count), leaves);
     for (std::size_t i = 0; i < count; ++i) {
       blocks[begin + i] = leaves[i] == nullptr ? nullptr : &leaves[i]->block;
       Prefetch(blocks[begin + i], 2 * sizeof(BlockMask));
     }
   }
+}
+
+void BlockTree::FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+  FindBlocks<false>(keys, blocks);
+}
+
+void BlockTree::FindOccupied(std::span<const BlockKey> keys, const VoxelBlock** blocks) const {
+  FindBlocks<true>(keys, blocks);
 }
 
 template <class Node>
@@ -205,7 +218,7 @@ void BlockTree::PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const M
   std::vector<const Leaf*> old(keys.size());
   std::vector<LeafPtr> made(keys.size());
   pool.ParallelChunks(keys.size(), 256, [&](int worker, std::size_t begin, std::size_t end) {
-    FindLeaves(keys.subspan(begin, end - begin), &old[begin]);
+    FindLeaves<false>(keys.subspan(begin, end - begin), &old[begin]);
     LeafPtr leaf;
     for (std::size_t i = begin; i < end; ++i) {
       constexpr std::size_t kAhead = 2;

@@ -6,14 +6,14 @@
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/scan_update.h"
 #include "clearway/map/voxel_map.h"
-#include "map/ray_sectors.h"
+#include "map/passed_voxels.h"
 
 namespace clearway {
 
 // Takes from the update of a map the misses that RayOptions::grazing_m speaks of. `rays`: those of
 // the scan that end on something, in the map's frame. The result does not depend on the number of
-// threads. `sectors`: memory to work in.
+// threads. `stretches`: memory to work in.
 void SpareGrazed(const VoxelMap& map, std::span<const RaySegment> rays, double grazing_m,
-                 ThreadPool& pool, RaySectors& sectors, ScanUpdate& update);
+                 ThreadPool& pool, PassedVoxels& stretches, ScanUpdate& update);
 
 }  // namespace clearway

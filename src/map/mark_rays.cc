@@ -87,6 +87,16 @@ class Marker {
 
 }  // namespace
 
+// A ray strays by less than a voxel from its segment.
+BlockRange BlocksAround(const VoxelGrid& grid, const RayRounds::Boxes& boxes) {
+  const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
+    const VoxelKey key = grid.KeyOf(p.cast<double>());
+    return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
+  };
+  const Eigen::AlignedBox3f box = boxes.origins.merged(boxes.ends);
+  return {block_at(box.min(), -2), block_at(box.max(), 2)};
+}
+
 void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window) {
   if (rays.size() == 0) return;
   Marker marker(grid, rays, one_origin, window);

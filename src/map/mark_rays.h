@@ -7,6 +7,12 @@
 
 namespace clearway {
 
+// The blocks of all voxels that WalkRay visits on rays within the boxes, and some more.
+struct BlockRange {
+  BlockKey first, last;
+};
+BlockRange BlocksAround(const VoxelGrid& grid, const RayRounds::Boxes& boxes);
+
 // Sets the bits of the voxels that WalkRay visits on the rays; the window must cover them.
 // `one_origin`: whether all rays begin at one point.
 void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window);

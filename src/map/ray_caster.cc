@@ -61,6 +61,7 @@ struct RayCaster::Impl {
   // Of the cloud at hand; their memory is kept for the next.
   PreparedRays rays;
   RaySectors sectors;
+  PassedVoxels stretches;
 
   void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
 };
@@ -107,13 +108,16 @@ ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const Ray
   ScanUpdate update = Cast(map.grid(), cloud, options);
   if (options.grazing_m == 0 || cloud.ends.empty()) return update;
   const PreparedRays& rays = impl_->rays;
-  std::vector<RaySegment> ending;
+  std::vector<RaySegment> ending;  // of those in a row in one voxel the first
   ending.reserve(rays.size());
+  VoxelKey last;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
+    if (!ending.empty() && rays.keys[i] == last) continue;
+    last = rays.keys[i];
     ending.push_back({OriginOf(cloud, i), rays.ends[i]});
   }
-  SpareGrazed(map, ending, options.grazing_m, impl_->pool, impl_->sectors, update);
+  SpareGrazed(map, ending, options.grazing_m, impl_->pool, impl_->stretches, update);
   return update;
 }
 

@@ -13,14 +13,8 @@ void RaySector::Clear() {
 const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
   if (size() == 0) return blocks_;
   rays_.Finish();
-  // A ray strays by less than a voxel from its segment.
-  const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
-    const VoxelKey key = grid.KeyOf(p.cast<double>());
-    return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
-  };
   const RayRounds::Boxes boxes = rays_.BoxesAround();
-  const Eigen::AlignedBox3f box = boxes.origins.merged(boxes.ends);
-  const BlockKey first = block_at(box.min(), -2), last = block_at(box.max(), 2);
+  const auto [first, last] = BlocksAround(grid, boxes);
   if (!BitWindow::Fits(first, last)) {
     MarkSparsely(grid);
     return blocks_;

@@ -64,7 +64,7 @@ SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, Thre
     for (const BlockKey key : Around(update.keys()[i])) keys.push_back(key);
   }
   std::vector<const VoxelBlock*> blocks(keys.size());
-  map.blocks().FindAll(keys, blocks.data());
+  map.blocks().FindOccupied(keys, blocks.data());
   beside_.resize(index_.size());
   pool.ParallelFor(beside_.size(), [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

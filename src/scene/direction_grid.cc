@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/multiversion.h"
+
 namespace clearway {
 namespace {
 
@@ -32,16 +34,20 @@ struct Place {
   int u, v;
 };
 
+// From the face's middle along an axis of it.
+inline int CellAlong(float slope) {
+  slope = std::min(std::max(slope, -1.2f), 1.2f);
+  // About 4 / pi times its arcus tangent.
+  const float angle = slope + 0.3476f * slope * (1 - std::abs(slope));
+  const int cell = static_cast<int>((angle + 1) * (0.5f * kAcross) + 1) - 1;  // rounded down
+  return std::min(std::max(cell, -1), kAcross);
+}
+
+constexpr float kLeast_m = 1e-30f;
+
 Place PlaceOn(Face face, const Eigen::Vector3f& d) {
-  constexpr float kLeast_m = 1e-30f;
   const float along = std::max(std::abs(d[face.axis]), kLeast_m);
-  const auto place = [&](int axis) {
-    const float slope = std::clamp(d[axis] / along, -1.2f, 1.2f);
-    // About 4 / pi times its arcus tangent.
-    const float angle = slope + 0.3476f * slope * (1 - std::abs(slope));
-    const int cell = static_cast<int>((angle + 1) * (0.5f * kAcross) + 1) - 1;  // rounded down
-    return std::clamp(cell, -1, kAcross);
-  };
+  const auto place = [&](int axis) { return CellAlong(d[axis] / along); };
   return {place((face.axis + 1) % 3), place((face.axis + 2) % 3)};
 }
 
@@ -67,6 +73,22 @@ void ForEachCell(const Eigen::Vector3f& d, Add&& add) {
   add_beside((face.axis + 2) % 3, inside.v);
 }
 
+// The first of these cells, without branches: many points at a time.
+inline std::uint32_t OwnCell(float x, float y, float z) {
+  const float across_x = std::abs(x), across_y = std::abs(y), across_z = std::abs(z);
+  const bool not_x = across_y > across_x;
+  const bool on_z = across_z > (not_x ? across_y : across_x);
+  const bool on_y = !on_z && not_x;
+  const float main = on_z ? z : on_y ? y : x, u = on_z ? x : on_y ? z : y;
+  const float v = on_z ? y : on_y ? x : z;
+  const float along = std::max(std::abs(main), kLeast_m);
+  const auto place = [along](float d) {
+    return std::min(std::max(CellAlong(d / along), 0), kAcross - 1);
+  };
+  const int number = (on_z ? 4 : on_y ? 2 : 0) + (main < 0 ? 1 : 0);
+  return kBefore + static_cast<std::uint32_t>((number * kRow + place(v) + 1) * kRow + place(u) + 1);
+}
+
 // The first cells of the three rows of three about a cell.
 std::array<std::uint32_t, 3> RowsAbout(std::uint32_t cell) {
   return {cell - kRow - 1, cell - 1, cell + kRow - 1};
@@ -81,11 +103,42 @@ struct Entry {
   bool is_copy;  // in the rim of a face that the point is not on
 };
 
-std::vector<Entry> EntriesOf(const LabelledCloud& cloud) {
+// Of each cell, the points of objects within a cell of it.
+std::vector<std::uint16_t> CountObjectPoints(const LabelledCloud& cloud) {
+  std::vector<std::uint16_t> counts(kCells);
+  const auto count = [&](std::uint32_t own) {
+    for (const std::uint32_t first : RowsAbout(own)) {
+      for (std::uint32_t cell = first; cell < first + 3; ++cell) {
+        counts[cell] += counts[cell] < std::numeric_limits<std::uint16_t>::max();
+      }
+    }
+  };
+  for (std::size_t i = 0; i < cloud.ends_W.size(); ++i) {
+    if (cloud.kinds[i] == RayEnd::kBlock) ForEachCell(cloud.ends_W[i] - cloud.origins_W[0], count);
+  }
+  return counts;
+}
+
+// The cell on the face that each point is on: the first that ForEachCell tells.
+CLEARWAY_MULTIVERSION void FindOwnCells(const Eigen::Vector3f* points_W, std::size_t size,
+                                        const Eigen::Vector3f& from_W, std::uint32_t* cells) {
+  const float from_x = from_W.x(), from_y = from_W.y(), from_z = from_W.z();
+  for (std::size_t i = 0; i < size; ++i) {
+    const float* p = points_W[i].data();
+    const float x = p[0] - from_x, y = p[1] - from_y, z = p[2] - from_z;
+    cells[i] = OwnCell(x, y, z);
+  }
+}
+
+// The points whose own cell has a point of an object within a cell of it.
+std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud,
+                                      const std::vector<std::uint16_t>& objects_about) {
   const Eigen::Vector3f from_W = cloud.origins_W[0];
+  std::vector<std::uint32_t> own(cloud.ends_W.size());
+  FindOwnCells(cloud.ends_W.data(), own.size(), from_W, own.data());
   std::vector<Entry> entries;
-  entries.reserve(cloud.ends_W.size() + cloud.ends_W.size() / 16);
-  for (std::uint32_t i = 0; i < cloud.ends_W.size(); ++i) {
+  for (std::uint32_t i = 0; i < own.size(); ++i) {
+    if (objects_about[own[i]] == 0 || cloud.kinds[i] == RayEnd::kClear) continue;
     bool is_copy = false;
     ForEachCell(cloud.ends_W[i] - from_W, [&](std::uint32_t cell) {
       entries.push_back({cell, i, is_copy});
@@ -93,33 +146,6 @@ std::vector<Entry> EntriesOf(const LabelledCloud& cloud) {
     });
   }
   return entries;
-}
-
-// Of each cell, the points of objects within a cell of it.
-std::vector<std::uint16_t> CountObjectPoints(const LabelledCloud& cloud,
-                                             const std::vector<Entry>& entries) {
-  std::vector<std::uint16_t> counts(kCells);
-  for (const Entry& entry : entries) {
-    if (cloud.kinds[entry.index] != RayEnd::kBlock) continue;
-    for (const std::uint32_t first : RowsAbout(entry.cell)) {
-      for (std::uint32_t cell = first; cell < first + 3; ++cell) {
-        counts[cell] += counts[cell] < std::numeric_limits<std::uint16_t>::max();
-      }
-    }
-  }
-  return counts;
-}
-
-// Keeps the entries of points whose own cell has a point of an object within a cell of it.
-void KeepNearObjects(const LabelledCloud& cloud, const std::vector<std::uint16_t>& objects_about,
-                     std::vector<Entry>& entries) {
-  bool is_near = false;  // of the point at hand: its own cell comes first
-  std::erase_if(entries, [&](const Entry& entry) {
-    if (!entry.is_copy) {
-      is_near = objects_about[entry.cell] > 0 && cloud.kinds[entry.index] != RayEnd::kClear;
-    }
-    return !is_near;
-  });
 }
 
 // Of many points in a row, it is enough to look at every so manieth.
@@ -131,10 +157,8 @@ std::size_t StepOver(std::size_t points) {
 }  // namespace
 
 DirectionGrid::DirectionGrid(const LabelledCloud& cloud) : begin_(kCells + 1) {
-  std::vector<Entry> entries = EntriesOf(cloud);
-  objects_about_ = CountObjectPoints(cloud, entries);
-  KeepNearObjects(cloud, objects_about_, entries);
-
+  objects_about_ = CountObjectPoints(cloud);
+  const std::vector<Entry> entries = EntriesNearObjects(cloud, objects_about_);
   for (const Entry& entry : entries) ++begin_[entry.cell];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<Entry> sorted(entries.size());

@@ -27,7 +27,7 @@ FORBIDDEN = {
 # Private headers that others may include: how functions are compiled is no user's business; the
 # converters show protobuf types, so they cannot be public, and those who speak the wire format
 # need them.
-SHARED = {"base": ["geometry", "map", "collision"], "wire": ["client", "server"]}
+SHARED = {"base": ["geometry", "map", "scene", "collision"], "wire": ["client", "server"]}
 
 # Third-party headers, and the only places (besides tests and benchmarks) that may include them.
 THIRD_PARTY = [

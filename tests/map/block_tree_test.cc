@@ -76,6 +76,27 @@ TEST(BlockTree, AgreesWithAMapOverRandomPutsAndRemovals) {
   }
 }
 
+TEST(BlockTree, FindOccupiedFindsBlocksWithOccupiedVoxelsAlone) {
+  Random random(3);
+  BlockTree dut;
+  std::vector<BlockKey> keys;
+  for (int i = 0; i < 1000; ++i) {
+    keys.push_back(RandomKey(random));
+    VoxelBlock block = BlockWith(0, 1);
+    i % 2 == 0 ? block.occupied.Set(0) : block.occupied.Clear(0);
+    if (i % 3 != 0) dut.Put(keys.back(), block);
+  }
+  std::vector<const VoxelBlock*> found(keys.size());
+  dut.FindOccupied(keys, found.data());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const VoxelBlock* block = dut.Find(keys[i]);
+    EXPECT_EQ(found[i], block != nullptr && block->occupied.Any() ? block : nullptr);
+    count += found[i] != nullptr;
+  }
+  EXPECT_GT(count, 200u);
+}
+
 TEST(BlockTree, ForEachInVisitsTheBoxAlone) {
   Random random(2);
   BlockTree dut;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "clearway/map/ray_caster.h"
@@ -112,14 +113,21 @@ TEST(GrazedVoxels, OfRandomRaysAndMaps) {
   for (int i = 0; i < 3'000; ++i) {
     rays.ends.push_back(random.Vector(3).cast<float>());
     rays.kinds.push_back(static_cast<RayEnd>(i % 3));
+    if (i % 4 != 0) continue;  // else one beside it, which may end in the same voxel
+    rays.ends.push_back(rays.ends.back() + random.Vector(0.05).cast<float>());
+    rays.kinds.push_back(rays.kinds.back());
   }
   const RayOptions options{.max_range_m = 2.5, .grazing_m = 0.8};
   std::set<VoxelKey> expected = MissesIn(UpdateBy(rays, map, {.max_range_m = 2.5}));
   const std::size_t all = expected.size();
+  VoxelKey last;
+  int in_a_row = 0;
   for (std::size_t i = 0; i < rays.ends.size(); ++i) {
     const Eigen::Vector3f back = rays.origins[0] - rays.ends[i];
     if (rays.kinds[i] == RayEnd::kClear || back.norm() > 2.5f) continue;
     const VoxelKey end = map.grid().KeyOf(rays.ends[i].cast<double>());
+    in_a_row += end == last;
+    if (std::exchange(last, end) == end) continue;
     const float length_m = std::min(back.norm(), 0.8f);
     const auto occupied = [&](int axis, int step) {
       VoxelKey beside = end;
@@ -140,6 +148,7 @@ TEST(GrazedVoxels, OfRandomRaysAndMaps) {
             });
   }
   EXPECT_LT(expected.size(), all - 100);
+  EXPECT_GT(in_a_row, 50);
   for (const int threads : {1, 3}) {
     EXPECT_EQ(MissesIn(UpdateBy(rays, map, options, threads)), expected);
   }

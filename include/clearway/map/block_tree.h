@@ -34,6 +34,8 @@ class BlockTree {
 
   // Find for many keys: blocks[i] is that of keys[i]. Waits for memory once for many of them.
   void FindAll(std::span<const BlockKey> keys, const VoxelBlock** blocks) const;
+  // Likewise, but null too for blocks in which no voxel is occupied: it does not look into those.
+  void FindOccupied(std::span<const BlockKey> keys, const VoxelBlock** blocks) const;
 
   // Stores the block, or removes it if nothing in it is observed.
   void Put(BlockKey key, const VoxelBlock& block);
@@ -148,8 +150,11 @@ class BlockTree {
 
   const Upper* FindRoot(BlockKey root_key) const;
   const Lower* FindLower(BlockKey key) const;
-  // leaves[i] is that of keys[i], null if there is none.
+  // leaves[i] is that of keys[i], null if there is none (with an occupied voxel).
+  template <bool kOccupied>
   void FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const;
+  template <bool kOccupied>
+  void FindBlocks(std::span<const BlockKey> keys, const VoxelBlock** blocks) const;
   void IndexRoots();
 
   std::vector<Root> roots_;  // ascending keys

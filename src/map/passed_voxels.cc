@@ -1,0 +1,93 @@
+#include "map/passed_voxels.h"
+
+#include "absl/container/flat_hash_map.h"
+#include "clearway/map/ray.h"
+#include "map/mark_rays.h"
+
+namespace clearway {
+namespace {
+
+bool Holds(BlockKey first, BlockKey last, BlockKey key) {
+  return first.x <= key.x && key.x <= last.x && first.y <= key.y && key.y <= last.y &&
+         first.z <= key.z && key.z <= last.z;
+}
+
+}  // namespace
+
+void PassedVoxels::Clear() {
+  for (Sector& sector : sectors_) sector.rays.Clear();
+}
+
+void PassedVoxels::Add(const RaySegment& ray) {
+  if (ray.origin == ray.end) return;
+  sectors_[RaySector::IndexOf(ray.end - ray.origin)].rays.Add(ray);
+}
+
+std::vector<BlockMask> PassedVoxels::Among(std::span<const BitWindow::Block> candidates,
+                                           const VoxelGrid& grid, ThreadPool& pool) {
+  pool.ParallelChunks(sectors_.size(), 1,
+                      [&](int, std::size_t s, std::size_t) { sectors_[s].Find(candidates, grid); });
+  std::vector<BlockMask> passed(candidates.size());
+  for (const Sector& sector : sectors_) {
+    for (const auto& [candidate, mask] : sector.passed) passed[candidate] |= mask;
+  }
+  return passed;
+}
+
+void PassedVoxels::Sector::Find(std::span<const BitWindow::Block> candidates,
+                                const VoxelGrid& grid) {
+  passed.clear();
+  if (rays.size() == 0) return;
+  rays.Finish();
+  const auto [first, last] = BlocksAround(grid, rays.BoxesAround());
+  if (BitWindow::Fits(first, last)) {
+    FindIn(first, last, candidates, grid);
+  } else {
+    FindSparsely(candidates, grid);
+  }
+}
+
+void PassedVoxels::Sector::FindIn(BlockKey first, BlockKey last,
+                                  std::span<const BitWindow::Block> candidates,
+                                  const VoxelGrid& grid) {
+  window.Cover(first, last);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto& [key, mask] = candidates[i];
+    if (!Holds(first, last, key)) continue;
+    mask.ForEach([&, block = key](int at) { window.Clear(VoxelAt(block, at)); });
+    passed.push_back({i, {}});
+  }
+  MarkRays(grid, rays, false, window);
+  for (auto& [candidate, found] : passed) {
+    const auto& [key, mask] = candidates[candidate];
+    mask.ForEach([&, block = key, &found = found](int at) {
+      const VoxelKey voxel = VoxelAt(block, at);
+      window.Test(voxel) ? found.Set(at) : window.Set(voxel);
+    });
+  }
+}
+
+// Without a window, which would be too large.
+void PassedVoxels::Sector::FindSparsely(std::span<const BitWindow::Block> candidates,
+                                        const VoxelGrid& grid) {
+  absl::flat_hash_map<BlockKey, std::size_t> by_key;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    by_key.emplace(candidates[i].key, i);
+    passed.push_back({i, {}});
+  }
+  for (std::size_t round = 0; round < RayRounds::kCount; ++round) {
+    for (const RaySegments& eight : rays.round(round)) {
+      for (int lane = 0; lane < kRayLanes; ++lane) {
+        const auto [origin, end] = SegmentIn(eight, lane);
+        WalkRay(grid, origin, end, [&](VoxelKey voxel) {
+          const auto entry = by_key.find(BlockOf(voxel));
+          if (entry == by_key.end()) return;
+          const int at = IndexInBlock(voxel);
+          if (candidates[entry->second].mask.Test(at)) passed[entry->second].mask.Set(at);
+        });
+      }
+    }
+  }
+}
+
+}  // namespace clearway

@@ -1,0 +1,46 @@
+// Which of a few voxels rays pass.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "clearway/base/thread_pool.h"
+#include "clearway/map/voxel_key.h"
+#include "map/bit_window.h"
+#include "map/ray_sector.h"
+
+namespace clearway {
+
+// Looks for the voxels of some blocks that rays pass, and leaves all others unlooked at: faster
+// than to mark all that they pass. Keeps its memory from one search to the next. One thread at a
+// time.
+class PassedVoxels {
+ public:
+  void Clear();
+  void Add(const RaySegment& ray);
+  // Of each candidate, no block twice, the voxels that a ray visits as WalkRay does. The result
+  // does not depend on the number of threads.
+  std::vector<BlockMask> Among(std::span<const BitWindow::Block> candidates, const VoxelGrid& grid,
+                               ThreadPool& pool);
+
+ private:
+  // The rays of one sector.
+  struct Sector {
+    RayRounds rays;
+    BitWindow window{BitWindow::AtRest::kSet};  // clear: a candidate that no ray has passed so far
+    struct Passed {
+      std::size_t candidate;
+      BlockMask mask;
+    };
+    std::vector<Passed> passed;
+
+    void Find(std::span<const BitWindow::Block> candidates, const VoxelGrid& grid);
+    void FindIn(BlockKey first, BlockKey last, std::span<const BitWindow::Block> candidates,
+                const VoxelGrid& grid);
+    void FindSparsely(std::span<const BitWindow::Block> candidates, const VoxelGrid& grid);
+  };
+  std::array<Sector, RaySector::kCount> sectors_;
+};
+
+}  // namespace clearway
