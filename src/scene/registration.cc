@@ -29,13 +29,27 @@ void AddPoint(const Eigen::Vector3d& p_M, const SurfaceCells::Cell& cell, double
   }
 }
 
-void AddGuess(const Pose& T_Q_M, const PoseGuess& guess, Equations& equations) {
+// Of how many deviations T_Q_M is off from the guess.
+double SquareOff(const Twist& off, const PoseGuess& guess) {
+  const double metres = off.linear.norm() / guess.sigma_m;
+  const double radians = off.angular.norm() / guess.sigma_rad;
+  return metres * metres + radians * radians;
+}
+
+// Cauchy's: like the square near zero, and hardly growing beyond `sigmas`.
+double RobustSquare(double square, double sigmas) {
+  if (std::isinf(sigmas)) return square;
+  return sigmas * sigmas * std::log(1 + square / (sigmas * sigmas));
+}
+
+void AddGuess(const Pose& T_Q_M, const PoseGuess& guess, double sigmas, Equations& equations) {
   const Twist off = Log(Inverse(guess.T_Q_M) * T_Q_M);
+  const double weight = 1 / (1 + SquareOff(off, guess) / (sigmas * sigmas));
   for (int axis = 0; axis < 3; ++axis) {
     Equations::Row linear{}, angular{};
     linear[axis] = angular[3 + axis] = 1;
-    equations.Add(1 / (guess.sigma_m * guess.sigma_m), linear, -off.linear[axis]);
-    equations.Add(1 / (guess.sigma_rad * guess.sigma_rad), angular, -off.angular[axis]);
+    equations.Add(weight / (guess.sigma_m * guess.sigma_m), linear, -off.linear[axis]);
+    equations.Add(weight / (guess.sigma_rad * guess.sigma_rad), angular, -off.angular[axis]);
   }
 }
 
@@ -79,9 +93,7 @@ double Registration::Cost(const Pose& T_Q_M, const RegistrationStage& stage) con
   double cost = -weights_.trust * stage.scale * stage.scale * fit;
   for (const PoseGuess& guess : guesses_) {
     const Twist off = Log(Inverse(guess.T_Q_M) * T_Q_M);
-    const double metres = off.linear.norm() / guess.sigma_m;
-    const double radians = off.angular.norm() / guess.sigma_rad;
-    cost += 0.5 * (metres * metres + radians * radians);
+    cost += 0.5 * RobustSquare(SquareOff(off, guess), weights_.guess_sigmas);
   }
   return cost;
 }
@@ -95,7 +107,9 @@ Twist Registration::Step(const Pose& T_Q_M, const RegistrationStage& stage) cons
     if (cell == nullptr) continue;
     AddPoint(p_M, *cell, weights_.trust * WeightOf(p_M, *cell, stage.scale), equations);
   }
-  for (const PoseGuess& guess : guesses_) AddGuess(T_Q_M, guess, equations);
+  for (const PoseGuess& guess : guesses_) {
+    AddGuess(T_Q_M, guess, weights_.guess_sigmas, equations);
+  }
   const Equations::Row row = equations.Solve();
   return {{row[3], row[4], row[5]}, {row[0], row[1], row[2]}};
 }

@@ -1,6 +1,7 @@
 // Where points fit the surface of a map: point to distribution, robust, from coarse to fine.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "clearway/geometry/pose.h"
@@ -31,6 +32,8 @@ struct RegistrationWeights {
   double trust;
   // Steps end with one that is shorter: metres and radians together.
   double least_step;
+  // A guess that is off by more deviations is likely wrong, and counts less the more it is.
+  double guess_sigmas = std::numeric_limits<double>::infinity();
 };
 
 // Registers points to a map. Both spans must outlive it. One thread.

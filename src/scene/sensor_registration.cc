@@ -10,7 +10,8 @@
 namespace clearway {
 namespace {
 
-constexpr RegistrationWeights kWeights = {.trust = 0.1, .least_step = 1e-4};
+// The points that are looked at lie apart: each tells as much as it does alone.
+constexpr RegistrationWeights kWeights = {.trust = 1, .least_step = 1e-4, .guess_sigmas = 5};
 constexpr int kCoarseBits = 3, kFineBits = 2;  // of the cells
 
 // Whether the point is one of a static surface that the map holds.
@@ -69,12 +70,36 @@ std::vector<SensorGuess> GuessesOf(const Frame& frame_V, const WorldCorrections&
   return guesses;
 }
 
-std::size_t NearMap(std::span<const Eigen::Vector3d> points_S, const Pose& T_M_S,
-                    SurfaceCells& cells) {
-  std::size_t near = 0;
-  for (const Eigen::Vector3d& p_S : points_S) near += cells.At(T_M_S * p_S) != nullptr;
-  return near;
-}
+// The map about the sensor. M has W's axes and lies at about the sensor: then turns and shifts are
+// not mixed up far from W's origin.
+class MapAround {
+ public:
+  MapAround(const VoxelMap& static_map_W, const Eigen::Vector3d& sensor_W)
+      : T_W_M_{Eigen::Quaterniond::Identity(), sensor_W},
+        coarse_(static_map_W, kCoarseBits, sensor_W),
+        fine_(static_map_W, kFineBits, sensor_W) {}
+
+  std::size_t CountNear(std::span<const Eigen::Vector3d> points_S, const Pose& T_W_S) {
+    const Pose T_M_S = Inverse(T_W_M_) * T_W_S;
+    std::size_t near = 0;
+    for (const Eigen::Vector3d& p_S : points_S) near += coarse_.At(T_M_S * p_S) != nullptr;
+    return near;
+  }
+
+  // T_W_S.
+  Pose Register(std::span<const Eigen::Vector3d> points_S, std::span<const SensorGuess> guesses) {
+    std::vector<PoseGuess> guesses_S;
+    for (const SensorGuess& guess : guesses) {
+      guesses_S.push_back({Inverse(guess.T_W_S) * T_W_M_, guess.sigma_m, guess.sigma_rad});
+    }
+    const RegistrationStage stages[] = {{coarse_, 4, 6}, {coarse_, 2, 6}, {fine_, 2, 8}};
+    return T_W_M_ * Inverse(Registration(points_S, guesses_S, kWeights).Register(stages));
+  }
+
+ private:
+  Pose T_W_M_;
+  SurfaceCells coarse_, fine_;
+};
 
 }  // namespace
 
@@ -87,23 +112,14 @@ Pose RegisterWorld(const Frame& frame_V, const VoxelMap& static_map_W,
   constexpr std::size_t kFewest = 50;  // points near the map
   std::vector<Eigen::Vector3d> points_S = SpreadPoints(frame_V, params);
   const std::vector<SensorGuess> guesses = GuessesOf(frame_V, before, params);
-  // M has W's axes, at about the sensor: then turns and shifts are not mixed up far from W's
-  // origin.
-  const Pose T_W_M{Eigen::Quaterniond::Identity(), guesses.back().T_W_S.translation};
-  SurfaceCells coarse(static_map_W, kCoarseBits, T_W_M.translation);
-  SurfaceCells fine(static_map_W, kFineBits, T_W_M.translation);
-  if (NearMap(points_S, Inverse(T_W_M) * guesses.back().T_W_S, coarse) < kFewest) {
+  const Pose T_W_S = guesses.back().T_W_S;
+  MapAround map(static_map_W, T_W_S.translation);
+  if (map.CountNear(points_S, T_W_S) < kFewest) {
     if (before.Empty()) return {};
     points_S.clear();
   }
-  std::vector<PoseGuess> guesses_S;
-  for (const SensorGuess& guess : guesses) {
-    guesses_S.push_back({Inverse(guess.T_W_S) * T_W_M, guess.sigma_m, guess.sigma_rad});
-  }
-  const RegistrationStage stages[] = {{coarse, 4, 6}, {coarse, 2, 6}, {fine, 2, 8}};
-  const Pose T_S_M = Registration(points_S, guesses_S, kWeights).Register(stages);
   const Pose T_V_S{frame_V.T_W_S.rotation.normalized(), frame_V.T_W_S.translation};
-  return T_W_M * Inverse(T_S_M) * Inverse(T_V_S);
+  return map.Register(points_S, guesses) * Inverse(T_V_S);
 }
 
 }  // namespace clearway
