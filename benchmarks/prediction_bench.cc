@@ -39,6 +39,13 @@ SceneParams ByTrack() {
   return params;
 }
 
+// With scans registered to the static map, of a source whose poses are off by about so much.
+SceneParams Mended(SceneParams params) {
+  params.sensor_pose_error_m = 1;
+  params.sensor_pose_error_rad = 0.02;
+  return params;
+}
+
 // The corners of the frame's boxes, instead of its scan.
 void SeeBoxes(const LidarFolder& folder, Frame& frame) {
   frame.points_S.clear();
@@ -61,11 +68,28 @@ struct Judged {
   std::map<ObjectId, BoxFit> sizes;
 };
 
+// The recorded boxes, which were measured from the sensor, in the world of the scene.
+Truth TruthFor(const LidarFolder& folder, const SceneParams& params) {
+  if (params.sensor_pose_error_m == 0) return TruthOf(folder);
+  ThreadPool pool(1);
+  SceneBuilder builder(params, {}, pool);
+  WorldCorrections corrections(Duration::max());
+  for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
+    const auto frame = folder.frames.read(k);
+    if (!frame.ok()) std::abort();
+    const auto report = builder.Apply(*frame);
+    if (!report.ok()) std::abort();
+    corrections.Add(frame->stamp, report->T_W_S * Inverse(frame->T_W_S));
+  }
+  return CarriedBy(std::move(corrections), TruthOf(folder));
+}
+
 Judged JudgedOn(const LidarFolder& folder, const SceneParams& params, bool boxes_alone) {
   ThreadPool pool(1);
   SceneBuilder builder(params, {}, pool);
-  PredictionScore score(TruthOf(folder), {kAhead.begin(), kAhead.end()});
-  BoxFitter sizes(TruthOf(folder));
+  const Truth truth = TruthFor(folder, params);
+  PredictionScore score(truth, {kAhead.begin(), kAhead.end()});
+  BoxFitter sizes(truth);
   for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
     auto frame = folder.frames.read(k);
     if (frame.ok() && boxes_alone) SeeBoxes(folder, *frame);
@@ -137,6 +161,9 @@ void Register(const Effort& effort) {
       [=](auto& state) { Predict(state, folder, LidarPoses::kIcp, "", ByTrack()); });
   Add("prediction_oxts", once,
       [=](auto& state) { Predict(state, folder, LidarPoses::kOxts, "_oxts", ByTrack()); });
+  Add("prediction_oxts_mended", once, [=](auto& state) {
+    Predict(state, folder, LidarPoses::kOxts, "_oxts_mended", Mended(ByTrack()));
+  });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // clearway evaluate: what a scene made of its frames and foresaw, against the truth.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -21,7 +22,8 @@ constexpr char kExamples[] =
     "  clearway evaluate sim:street --grazing 4 --wrong-labels 0.05 --filter-labels\n"
     "  clearway evaluate sim:street --unlabelled 1,2 --dynamic-life 1\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
-    "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json";
+    "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json\n"
+    "  clearway evaluate kitti0000_fov --poses oxts --sensor-error 1 --sensor-error-deg 1";
 
 struct Flags {
   std::string spec;
@@ -31,6 +33,7 @@ struct Flags {
   double max_range_m = 50;
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
+  double sensor_error_m = 0, sensor_error_deg = 0;
   bool reidentify = false, filter_labels = false, clear_objects = false;
   double dynamic_life_s = 0;
   ErrorFlags errors;
@@ -47,6 +50,8 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rest_distance_m = flags.rest_distance_m;
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
+  params.sensor_pose_error_m = flags.sensor_error_m;
+  params.sensor_pose_error_rad = flags.sensor_error_deg * std::numbers::pi / 180;
   params.reidentify = flags.reidentify;
   params.filter_labels = flags.filter_labels;
   params.clear_objects_by_rays = flags.clear_objects;
@@ -54,8 +59,13 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   return params;
 }
 
-absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
-                                    const Terminal& terminal) {
+// Called after each frame: its number, the frame as it is and as it was told, and what became of
+// it.
+using AfterFrame = std::function<void(std::size_t k, Frame frame, const Frame& told,
+                                      const FrameReport& report, SceneBuilder& builder)>;
+
+absl::Status MakeScene(const TrueSource& source, const Flags& flags, const Terminal& terminal,
+                       FrameTeller& teller, const AfterFrame& after) {
   const SceneParams params = ParamsOf(source, flags);
   if (auto status = Validate(params); !status.ok()) return status;
   if (source.frames.frame_count == 0) {
@@ -63,29 +73,58 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   }
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
-  Evaluator evaluator(source, flags.errors.unlabelled);
-  FrameTeller teller(flags.errors);
   ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
   std::uint64_t points = 0;
   for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
-    const auto frame = source.frames.read(k);
+    auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
     const Frame told = teller.Tell(*frame);
     const auto report = builder.Apply(told);
     if (!report.ok()) return report.status();
-    evaluator.Add(k, *frame, teller.WithTrueNames(told, builder.Publish()));
     points += frame->points_S.size();
+    after(k, *std::move(frame), told, *report, builder);
     progress.Update(k + 1, points);
   }
   progress.Finish();
+  return absl::OkStatus();
+}
+
+// The scene that is evaluated next is made once before: what is predicted is judged by how the
+// world will have been corrected by then.
+absl::Status CarryTruth(const Flags& flags, const Terminal& terminal, TrueSource& source) {
+  WorldCorrections corrections(Duration::max());
+  FrameTeller teller(flags.errors);
+  const auto add = [&](std::size_t, const Frame& frame, const Frame&, const FrameReport& report,
+                       SceneBuilder&) {
+    corrections.Add(frame.stamp, report.T_W_S * Inverse(frame.T_W_S));
+  };
+  absl::Status status = MakeScene(source, flags, terminal, teller, add);
+  if (status.ok()) source.truth = CarriedBy(std::move(corrections), source.truth);
+  return status;
+}
+
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
+                                    const Terminal& terminal) {
+  Evaluator evaluator(source, flags.errors.unlabelled);
+  FrameTeller teller(flags.errors);
+  const auto add = [&](std::size_t k, Frame frame, const Frame& told, const FrameReport& report,
+                       SceneBuilder& builder) {
+    frame.T_W_S = report.T_W_S;
+    evaluator.Add(k, frame, teller.WithTrueNames(told, builder.Publish()));
+  };
+  if (auto status = MakeScene(source, flags, terminal, teller, add); !status.ok()) return status;
   Evaluation found = std::move(evaluator).Result();
   found.identities = teller.identities();
   return found;
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
-  const auto source = OpenTrueSource(flags.spec, flags.source);
+  auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
+  const bool mends = flags.sensor_error_m > 0 || flags.sensor_error_deg > 0;
+  if (mends && !source->simulation) {
+    if (auto status = CarryTruth(flags, terminal, *source); !status.ok()) return status;
+  }
   const auto found = Evaluate(*source, flags, terminal);
   if (!found.ok()) return found.status();
   if (!flags.html.empty()) {
@@ -128,6 +167,16 @@ void AddEvaluate(Cli& cli) {
       ->check(Between(0, 10))
       ->capture_default_str();
   command->add_option("--pose-error-deg", flags->pose_error_deg, "The same of angles, in degrees")
+      ->check(Between(0, 57))
+      ->capture_default_str();
+  command
+      ->add_option("--sensor-error", flags->sensor_error_m,
+                   "As of clearway-server --scene-sensor-pose-error-m;\nrecorded boxes are then "
+                   "judged where the sensor saw them")
+      ->check(Between(0, 10))
+      ->capture_default_str();
+  command
+      ->add_option("--sensor-error-deg", flags->sensor_error_deg, "The same of angles, in degrees")
       ->check(Between(0, 57))
       ->capture_default_str();
   command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");

@@ -67,6 +67,8 @@ Json ParamsJson(const SceneParams& p) {
           {"rest_distance_m", p.rest_distance_m},
           {"object_pose_error_m", p.object_pose_error_m},
           {"object_pose_error_rad", p.object_pose_error_rad},
+          {"sensor_pose_error_m", p.sensor_pose_error_m},
+          {"sensor_pose_error_rad", p.sensor_pose_error_rad},
           {"reidentify", p.reidentify},
           {"filter_labels", p.filter_labels},
           {"dynamic_life_s", ToSeconds(p.dynamic_life)},

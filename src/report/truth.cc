@@ -77,6 +77,21 @@ Truth TruthOf(const LidarFolder& folder) {
   return truth;
 }
 
+Truth CarriedBy(WorldCorrections corrections, Truth truth_V) {
+  const auto shared = std::make_shared<const WorldCorrections>(std::move(corrections));
+  Truth truth = truth_V;
+  truth.boxes = [shared, boxes_V = truth_V.boxes](Time t) {
+    std::vector<TrueBox> boxes = boxes_V(t);
+    for (TrueBox& box : boxes) box.T_W_B = Carried(*shared, t, box.T_W_B);
+    return boxes;
+  };
+  truth.touched = [shared, touched_V = truth_V.touched](const Shape& shape, const Pose& T_W_G,
+                                                        Time t) {
+    return touched_V(shape, Inverse(shared->At(t)) * T_W_G, t);
+  };
+  return truth;
+}
+
 std::optional<TrueBox> BoxOf(const Truth& truth, ObjectId id, Time t) {
   for (const TrueBox& box : truth.boxes(t)) {
     if (box.id == id) return box;

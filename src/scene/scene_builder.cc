@@ -10,6 +10,7 @@
 #include "scene/labelled_cloud.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
+#include "scene/sensor_registration.h"
 
 namespace clearway {
 namespace {
@@ -69,9 +70,22 @@ SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits,
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
+  if (!MendsSensorPoses(scene_.params)) return ApplyInScene(frame);
+
+  WorldCorrections corrections = corrections_;
+  corrections.Add(frame.stamp,
+                  RegisterWorld(frame, scene_.static_map_W, corrections_, scene_.params));
+  absl::StatusOr<FrameReport> report = ApplyInScene(CarriedBy(corrections, frame));
+  if (report.ok()) corrections_ = std::move(corrections);
+  return report;
+}
+
+absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
+  if (absl::Status status = CheckFits(frame); !status.ok()) return status;
   if (absl::Status status = CheckParts(frame, scene_.objects); !status.ok()) return status;
 
   FrameReport report;
+  report.T_W_S = frame.T_W_S;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
   if (scene_.params.filter_labels) {
     report.points_doubted = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
@@ -173,6 +187,7 @@ void SceneBuilder::Reset() {
   const std::uint64_t version = scene_.version;
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
+  corrections_ = WorldCorrections();
   has_frames_ = false;
   changed_ = true;
 }

@@ -31,14 +31,14 @@ absl::Status CheckGrazing(double value_m) {
       absl::StrCat("grazing_m is ", value_m, "; it must lie between 0 and 100 m"));
 }
 
-absl::Status CheckPoseErrors(double value_m, double value_rad) {
+absl::Status CheckPoseErrors(const char* of, double value_m, double value_rad) {
   if (!(value_m >= 0 && value_m <= 10)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("object_pose_error_m is ", value_m, "; it must lie between 0 and 10 m"));
+        absl::StrCat(of, "_pose_error_m is ", value_m, "; it must lie between 0 and 10 m"));
   }
   if (value_rad >= 0 && value_rad <= 1) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("object_pose_error_rad is ", value_rad, "; it must lie between 0 and 1"));
+      absl::StrCat(of, "_pose_error_rad is ", value_rad, "; it must lie between 0 and 1"));
 }
 
 absl::Status CheckKeepDistance(double value_m) {
@@ -77,7 +77,8 @@ absl::Status Validate(const SceneParams& params) {
         CheckDuration("dynamic_life_s", params.dynamic_life),
         CheckDuration("dynamic_settle_s", params.dynamic_settle),
         CheckRestDistance(params.rest_distance_m),
-        CheckPoseErrors(params.object_pose_error_m, params.object_pose_error_rad),
+        CheckPoseErrors("object", params.object_pose_error_m, params.object_pose_error_rad),
+        CheckPoseErrors("sensor", params.sensor_pose_error_m, params.sensor_pose_error_rad),
         CheckKeepDistance(params.keep_distance_m), CheckGrazing(params.rays.grazing_m),
         CheckBox("bounds", params.bounds_W), CheckBoxes("keep_out", params.keep_out_W),
         CheckBoxes("self_filter", params.self_filter_S)}) {

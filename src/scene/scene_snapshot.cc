@@ -103,6 +103,8 @@ void ContentHasher::Add(const SceneParams& params) {
   Add(params.rest_distance_m);
   Add(params.object_pose_error_m);
   Add(params.object_pose_error_rad);
+  Add(params.sensor_pose_error_m);
+  Add(params.sensor_pose_error_rad);
   Add(std::int64_t{params.reidentify});
   Add(std::int64_t{params.filter_labels});
   Add(params.keep_distance_m);

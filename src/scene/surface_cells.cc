@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace clearway {
 namespace {
@@ -35,65 +34,76 @@ void SurfaceCells::Sums::Add(const Sums& other) {
   second += other.second;
 }
 
-SurfaceCells::SurfaceCells(const VoxelMap& map_O, int bits)
-    : voxel_m_(map_O.grid().resolution_m()), per_m_(map_O.grid().voxels_per_m() / (1 << bits)) {
-  const int shift = kBlockBits - bits;  // to the cells of a block
-  std::vector<Sums> of_block(std::size_t{1} << 3 * shift);
-  map_O.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-    std::ranges::fill(of_block, Sums{});
-    block.occupied.ForEach([&](int index) {
-      const int x = index & 7, y = index >> 3 & 7, z = index >> 6;
-      const int cell = x >> bits | y >> bits << shift | z >> bits << 2 * shift;
-      of_block[cell].Add(block.log_odds[index], map_O.grid().CenterOf(VoxelAt(key, index)));
-    });
-    const int across = (1 << shift) - 1;
-    for (int cell = 0; cell < static_cast<int>(of_block.size()); ++cell) {
-      if (of_block[cell].count == 0) continue;
-      const BlockKey at{(key.x << shift) + (cell & across),
-                        (key.y << shift) + (cell >> shift & across),
-                        (key.z << shift) + (cell >> 2 * shift)};
-      sums_.emplace(at, of_block[cell]);
-    }
-  });
-}
+SurfaceCells::SurfaceCells(const VoxelMap& map, int bits, const Eigen::Vector3d& origin)
+    : map_(&map),
+      bits_(bits),
+      shift_(kBlockBits - bits),
+      voxel_m_(map.grid().resolution_m()),
+      per_m_(map.grid().voxels_per_m() / (1 << bits)),
+      origin_(origin) {}
 
-const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_O) {
+const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_M) {
   constexpr double kFar = 1e9;  // cells; nothing is there
   const auto index = [&](double x) {
     return static_cast<std::int32_t>(std::clamp(std::floor(x * per_m_), -kFar, kFar));
   };
-  const auto [entry, fresh] = seen_.try_emplace({index(p_O.x()), index(p_O.y()), index(p_O.z())});
+  const Eigen::Vector3d p = p_M + origin_;
+  const auto [entry, fresh] = seen_.try_emplace({index(p.x()), index(p.y()), index(p.z())});
   if (fresh) entry->second = CellAround(entry->first);
   return entry->second ? &*entry->second : nullptr;
 }
 
-std::optional<SurfaceCells::Cell> SurfaceCells::CellAround(BlockKey key) const {
+const SurfaceCells::Sums* SurfaceCells::SumsIn(BlockKey block_key) {
+  const auto [entry, fresh] = begins_.try_emplace(block_key, -1);
+  if (fresh) {
+    const VoxelBlock* block = map_->blocks().Find(block_key);
+    if (block == nullptr || !block->occupied.Any()) return nullptr;
+    entry->second = static_cast<std::ptrdiff_t>(sums_.size());
+    sums_.resize(sums_.size() + (std::size_t{1} << 3 * shift_));
+    Sums* const of_block = &sums_[entry->second];
+    block->occupied.ForEach([&](int index) {
+      const int x = index & 7, y = index >> 3 & 7, z = index >> 6;
+      const int cell = x >> bits_ | y >> bits_ << shift_ | z >> bits_ << 2 * shift_;
+      // Occupied may be what is as likely free.
+      const double weight = std::max<double>(block->log_odds[index], 1);
+      of_block[cell].Add(weight, map_->grid().CenterOf(VoxelAt(block_key, index)));
+    });
+  }
+  return entry->second < 0 ? nullptr : &sums_[entry->second];
+}
+
+std::optional<SurfaceCells::Cell> SurfaceCells::CellAround(BlockKey key) {
   constexpr double kFewest = 3;  // voxels that make a distribution
+  const int across = (1 << shift_) - 1;
   Sums around;
   for (int i = 0; i < 27; ++i) {
-    const auto entry = sums_.find({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
-    if (entry != sums_.end()) around.Add(entry->second);
+    const BlockKey at{key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1};
+    const Sums* of_block = SumsIn({at.x >> shift_, at.y >> shift_, at.z >> shift_});
+    if (of_block == nullptr) continue;
+    const int cell = (at.x & across) | (at.y & across) << shift_ | (at.z & across) << 2 * shift_;
+    if (of_block[cell].count > 0) around.Add(of_block[cell]);
   }
   if (around.count < kFewest) return std::nullopt;
-  return CellOf(around, voxel_m_);
+  return CellOf(around);
 }
 
 // The information of the distribution, less that of a wider one: for a thin surface that is nearly
 // all across it, and nearly none along it. Where a voxel lies, nobody knows better than by half of
 // its edge.
-SurfaceCells::Cell SurfaceCells::CellOf(const Sums& sums, double voxel_m) {
+SurfaceCells::Cell SurfaceCells::CellOf(const Sums& sums) const {
   constexpr double kOwnVariance = 0.25, kWider = 2;  // in squares of voxels
+  const Eigen::Vector3d mean = sums.first / sums.weight;
   Cell cell;
-  cell.mean_O = sums.first / sums.weight;
+  cell.mean_M = mean - origin_;
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      covariance(i, j) = sums.second(i, j) / sums.weight - cell.mean_O[i] * cell.mean_O[j];
+      covariance(i, j) = sums.second(i, j) / sums.weight - mean[i] * mean[j];
     }
-    covariance(i, i) += kOwnVariance * voxel_m * voxel_m;
+    covariance(i, i) += kOwnVariance * voxel_m_ * voxel_m_;
   }
   Eigen::Matrix3d wider = covariance;
-  for (int i = 0; i < 3; ++i) wider(i, i) += kWider * voxel_m * voxel_m;
+  for (int i = 0; i < 3; ++i) wider(i, i) += kWider * voxel_m_ * voxel_m_;
   cell.factors = Factors(covariance.inverse() - wider.inverse());
   return cell;
 }

@@ -1,9 +1,11 @@
-// The surface of an object's map, smooth enough to register views to.
+// The surface of a map, smooth enough to register views to.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "absl/container/flat_hash_map.h"
 #include "clearway/map/voxel_map.h"
@@ -14,24 +16,27 @@ namespace clearway {
 // Distributions Transform", IROS 2003). A cell's distribution is of its own voxels and of those in
 // the 26 cells around it, so that neighbours are alike and there is one in every cell beside an
 // occupied one. What was hit often counts more. Along a surface it tells hardly anything: that the
-// voxels of a cell lie in that cell is no news. One thread.
+// voxels of a cell lie in that cell is no news. Only the blocks around the points that somebody
+// asks for are ever looked at. Points are given in M: the map's axes, from an origin of one's own.
+// One thread.
 class SurfaceCells {
  public:
   struct Cell {
-    Eigen::Vector3d mean_O;
+    Eigen::Vector3d mean_M;
     // Three vectors a_i, in 1/m: a point p is sum (a_i (p - mean_O))^2 squared deviations away.
     std::array<Eigen::Vector3d, 3> factors;
 
-    double Deviation(const Eigen::Vector3d& p_O, int i) const {
-      return factors[i].dot(p_O - mean_O);
+    double Deviation(const Eigen::Vector3d& p_M, int i) const {
+      return factors[i].dot(p_M - mean_M);
     }
   };
 
-  // Edges of 2^bits voxels, of which a block is a multiple.
-  SurfaceCells(const VoxelMap& map_O, int bits);
+  // Edges of 2^bits voxels, of which a block is a multiple. `origin` is M's in the map's frame. The
+  // map must outlive this and stay as it is.
+  SurfaceCells(const VoxelMap& map, int bits, const Eigen::Vector3d& origin);
 
   // The one that holds p; null where hardly anything is near. Valid until the next call.
-  const Cell* At(const Eigen::Vector3d& p_O);
+  const Cell* At(const Eigen::Vector3d& p_M);
 
  private:
   // Weighted by log-odds.
@@ -43,11 +48,17 @@ class SurfaceCells {
     void Add(double of_weight, const Eigen::Vector3d& p);
     void Add(const Sums& other);
   };
-  std::optional<Cell> CellAround(BlockKey key) const;
-  static Cell CellOf(const Sums& sums, double voxel_m);
+  // Those of the block's cells; null if nothing is occupied in it. Valid until the next call.
+  const Sums* SumsIn(BlockKey block);
+  std::optional<Cell> CellAround(BlockKey key);
+  Cell CellOf(const Sums& sums) const;
 
+  const VoxelMap* map_;
+  int bits_, shift_;  // of voxels to cells; of cells to blocks
   double voxel_m_, per_m_;
-  absl::flat_hash_map<BlockKey, Sums> sums_;                 // of the cells with occupied voxels
+  Eigen::Vector3d origin_;
+  std::vector<Sums> sums_;                                   // block by block
+  absl::flat_hash_map<BlockKey, std::ptrdiff_t> begins_;     // in sums_; -1 for none
   absl::flat_hash_map<BlockKey, std::optional<Cell>> seen_;  // those that somebody asked for
 };
 

@@ -77,6 +77,8 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_rest_distance_m(params.rest_distance_m);
   proto->set_object_pose_error_m(params.object_pose_error_m);
   proto->set_object_pose_error_rad(params.object_pose_error_rad);
+  proto->set_sensor_pose_error_m(params.sensor_pose_error_m);
+  proto->set_sensor_pose_error_rad(params.sensor_pose_error_rad);
   proto->set_reidentify(params.reidentify);
   proto->set_filter_labels(params.filter_labels);
   proto->set_dynamic_life_ns(params.dynamic_life.count());
@@ -111,6 +113,8 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.rest_distance_m = proto.rest_distance_m();
   params.object_pose_error_m = proto.object_pose_error_m();
   params.object_pose_error_rad = proto.object_pose_error_rad();
+  params.sensor_pose_error_m = proto.sensor_pose_error_m();
+  params.sensor_pose_error_rad = proto.sensor_pose_error_rad();
   params.reidentify = proto.reidentify();
   params.filter_labels = proto.filter_labels();
   params.dynamic_life = Duration(proto.dynamic_life_ns());

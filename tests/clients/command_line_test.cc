@@ -176,6 +176,18 @@ TEST(CommandLine, EvaluatesMapsAgainstTheSimulatorsTruth) {
   EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
 }
 
+// Of the drift of the simulated SLAM hardly anything is left.
+TEST(CommandLine, EvaluatesMapsOfMendedSensorPoses) {
+  const auto residual = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(),
+                 {"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
+    const Finished dut = Clearway(flags);
+    EXPECT_EQ(dut.exit_code, 0) << dut.err;
+    return nlohmann::json::parse(dut.out)["static"]["residual_voxels"].get<int>();
+  };
+  EXPECT_LT(2 * residual({"--sensor-error", "0.29", "--sensor-error-deg", "2.1"}), residual({}));
+}
+
 TEST(CommandLine, EvaluatesOnAPageThatNeedsNothingElse) {
   const TemporaryFolder folder;
   const std::string page = folder / "small.html";

@@ -33,6 +33,8 @@ TEST(SceneParams, RefusesEachFieldByName) {
   ExpectRefused([](auto& p) { p.rest_distance_m = NAN; }, "rest_distance_m");
   ExpectRefused([](auto& p) { p.object_pose_error_m = 11; }, "object_pose_error_m");
   ExpectRefused([](auto& p) { p.object_pose_error_rad = NAN; }, "object_pose_error_rad");
+  ExpectRefused([](auto& p) { p.sensor_pose_error_m = -1; }, "sensor_pose_error_m");
+  ExpectRefused([](auto& p) { p.sensor_pose_error_rad = 2; }, "sensor_pose_error_rad");
   ExpectRefused([](auto& p) { p.keep_distance_m = 0.5; }, "keep_distance_m");
   ExpectRefused([](auto& p) { p.keep_distance_m = NAN; }, "keep_distance_m");
   ExpectRefused([](auto& p) { p.bounds_W = Aabb{}; }, "bounds");

@@ -187,7 +187,8 @@ TEST(FrameWire, AcksComeBack) {
   ack.version = 9;
   ack.stamp = TimeFromNanoseconds(77);
   ack.reached = AckLevel::kApplied;
-  ack.report = {1, 2, 3, 4, 5, 6, 7, 8, 10, 9, 11};
+  const Pose T_W_S{Eigen::Quaterniond(0.6, 0, 0, 0.8), {1, 2, 3}};
+  ack.report = {1, 2, 3, 4, 5, 6, 7, 8, 10, 9, 11, 12, T_W_S};
   ack.repeated_answer = true;
   v1::PushFrameResponse proto;
   Write(ack, &proto);
@@ -207,6 +208,8 @@ TEST(FrameWire, AcksComeBack) {
   EXPECT_EQ(dut.report.points_given, 9u);
   EXPECT_EQ(dut.report.objects_reidentified, 10u);
   EXPECT_EQ(dut.report.points_doubted, 11u);
+  EXPECT_EQ(dut.report.voxels_dynamic, 12u);
+  EXPECT_EQ(dut.report.T_W_S, T_W_S);
 }
 
 TEST(FrameWire, LevelsComeBackAndUnknownOnesDoNot) {

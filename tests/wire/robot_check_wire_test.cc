@@ -201,6 +201,8 @@ TEST(SceneWire, ParamsComeBack) {
   params.rays.grazing_m = 4;
   params.object_pose_error_m = 0.57;
   params.object_pose_error_rad = 0.05;
+  params.sensor_pose_error_m = 0.29;
+  params.sensor_pose_error_rad = 0.04;
   params.reidentify = true;
   params.filter_labels = true;
   params.dynamic_life = std::chrono::milliseconds(400);

@@ -10,6 +10,7 @@
 #include "clearway/geometry/shape.h"
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/top_view.h"
+#include "clearway/scene/world_corrections.h"
 #include "clearway/sim/world.h"
 
 namespace clearway {
@@ -37,6 +38,10 @@ Truth TruthOf(std::shared_ptr<const World> world, Time end);
 // Of a recording: its boxes, between two frames moved along the screw from the one to the other.
 // The static world is not recorded.
 Truth TruthOf(const LidarFolder& folder);
+
+// The truth as a source's world V tells it, in the scene's world W: what is at a place of V at t is
+// where that place was taken to be at t. Of a recording whose boxes were measured from the sensor.
+Truth CarriedBy(WorldCorrections corrections, Truth truth_V);
 
 std::optional<TrueBox> BoxOf(const Truth& truth, ObjectId id, Time t);
 

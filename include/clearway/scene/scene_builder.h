@@ -12,6 +12,7 @@
 #include "clearway/scene/frame.h"
 #include "clearway/scene/given_object.h"
 #include "clearway/scene/scene_snapshot.h"
+#include "clearway/scene/world_corrections.h"
 
 namespace clearway {
 
@@ -35,6 +36,10 @@ struct FrameReport {
   std::size_t points_doubted = 0;
   // In the scene after the frame (SceneParams::dynamic_life).
   std::size_t voxels_dynamic = 0;
+  // Where the sensor is in the scene's world: as the frame says, unless its pose was mended
+  // (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is where
+  // the source's world lies in the scene's.
+  Pose T_W_S;
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at
@@ -88,6 +93,8 @@ class SceneBuilder {
 
  private:
   absl::Status CheckFits(const Frame& frame) const;
+  // Applies a valid frame of the scene's own world W.
+  absl::StatusOr<FrameReport> ApplyInScene(const Frame& frame);
   // Updates the lasting map by a scan to the static map. Returns what is dynamic in that.
   DynamicSpace CastIntoStatic(const LabelledCloud& cloud, Time stamp, VoxelMap& static_map_W);
   // Takes over what `change` made of the scene's objects, unless it failed.
@@ -95,6 +102,7 @@ class SceneBuilder {
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
 
   SceneSnapshot scene_;  // its version is the one published last
+  WorldCorrections corrections_;
   FrameLimits limits_;
   ThreadPool* pool_;
   RayCaster caster_;

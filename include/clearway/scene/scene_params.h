@@ -46,6 +46,11 @@ struct SceneParams {
   // the angle. If one of them is not zero, each view of an object is registered to the object's own
   // map, and the object is where it fits. 0 and 0: objects are where the source says.
   double object_pose_error_m = 0, object_pose_error_rad = 0;
+  // The same of the source's poses of the sensor. If one of them is not zero, each scan is
+  // registered to the static map, and the sensor is where its static points fit: the scene's world
+  // is then one that holds still where the source's drifts, and all that a frame states is carried
+  // over (WorldCorrections). 0 and 0: the sensor is where the source says.
+  double sensor_pose_error_m = 0, sensor_pose_error_rad = 0;
   // Whether an object that was lost and is seen again under another id is known again, by where it
   // is predicted and by its shape. It then goes on under its first id, and the other names it too.
   bool reidentify = false;

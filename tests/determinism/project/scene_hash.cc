@@ -41,6 +41,7 @@ int main() {
     params.motion = variant ? MotionModel::kTrack : MotionModel::kLastMotion;
     params.rest_distance_m = variant ? 0.5 : 0;
     params.object_pose_error_m = variant ? 0.1 : 0;
+    params.sensor_pose_error_m = variant ? 0.1 : 0;
     params.reidentify = variant;
     params.filter_labels = variant;
     params.dynamic_life = std::chrono::milliseconds(variant ? 500 : 0);
