@@ -10,6 +10,7 @@
 #include "clearway/scene/scene_builder.h"
 #include "support/frames.h"
 #include "support/random.h"
+#include "support/rooms.h"
 
 namespace {
 
@@ -29,6 +30,21 @@ std::uint64_t HashOfAnswers(const SceneSnapshot& scene) {
                     std::bit_cast<std::uint64_t>(answer.fused_log_odds.value_or(0)), "\n");
   }
   return XXH3_64bits(text.data(), text.size());
+}
+
+// Of a source that drifts in a room, and is mended.
+std::string HashOfRoom() {
+  SceneParams params;
+  params.sensor_pose_error_m = 0.2;
+  params.sensor_pose_error_rad = 0.02;
+  ThreadPool pool(2);
+  SceneBuilder builder(params, {}, pool);
+  for (int k = 0; k < 5; ++k) {
+    const Pose T_W_S = Exp({{0.02 * k, 0.01 * k, 0.1 * k}, {0.1 * k, 0.2, 0.05 * k}});
+    const Pose T_V_S = Exp({{0, 0.004 * k, 0.003 * k}, {0.03 * k, -0.02 * k, 0.01 * k}}) * T_W_S;
+    if (!builder.Apply(testing_support::ScanOfRoom(0.1 * k, T_W_S, T_V_S)).ok()) return "refused";
+  }
+  return builder.Publish()->Hash();
 }
 
 }  // namespace
@@ -59,4 +75,5 @@ int main() {
     std::cout << scene->static_map_W.observed_count() << " voxels, " << scene->objects.size()
               << " objects: " << scene->Hash() << ", answers " << HashOfAnswers(*scene) << "\n";
   }
+  std::cout << "a room: " << HashOfRoom() << "\n";
 }
