@@ -31,7 +31,9 @@ std::vector<SolidOverlap> Together(const std::map<ObjectId, std::vector<SolidOve
 }
 
 Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unlabelled)
-    : predictions_(source.truth, {kAhead.begin(), kAhead.end()}), boxes_(source.truth) {
+    : predictions_(source.truth, {kAhead.begin(), kAhead.end()}),
+      boxes_(source.truth),
+      ways_(source.truth, {kWaysAhead.begin(), kWaysAhead.end()}) {
   if (!unlabelled.empty()) {
     unlabelled_.emplace(source.truth, std::set<ObjectId>(unlabelled.begin(), unlabelled.end()));
   }
@@ -40,10 +42,12 @@ Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unla
 }
 
 void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
+  constexpr std::size_t kWaysEvery = 5;
   predictions_.Add(*scene);
   boxes_.Add(*scene);
   if (judge_) judge_->Add(k, frame, *scene);
   if (unlabelled_) unlabelled_->Add(frame, *scene);
+  if (k % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
   AddObjects(*scene);
   found_.scene = std::move(scene);
 }
@@ -61,6 +65,7 @@ void Evaluator::AddObjects(const SceneSnapshot& scene) {
 Evaluation Evaluator::Result() && {
   found_.predictions = predictions_.Errors();
   found_.sizes = boxes_.Fits();
+  found_.ways = ways_.Result();
   if (unlabelled_) found_.unlabelled = unlabelled_->Result();
   if (judge_) {
     found_.fits = judge_->Fits();

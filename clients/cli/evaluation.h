@@ -15,6 +15,7 @@
 #include "clearway/report/prediction_score.h"
 #include "clearway/report/surface_judge.h"
 #include "clearway/report/unlabelled_score.h"
+#include "clearway/report/way_confusion.h"
 #include "cli/truth_source.h"
 
 namespace clearway::cli {
@@ -23,6 +24,11 @@ namespace clearway::cli {
 inline constexpr std::array kAhead = {
     std::chrono::milliseconds(500), std::chrono::milliseconds(1000),
     std::chrono::milliseconds(2000), std::chrono::milliseconds(3000)};
+
+// How far ahead places are asked about: at once, too.
+inline constexpr std::array kWaysAhead = {Duration::zero(), Duration(kAhead[0]),
+                                          Duration(kAhead[1]), Duration(kAhead[2]),
+                                          Duration(kAhead[3])};
 
 struct Evaluation {
   std::map<ObjectId, std::vector<PredictionErrors>> predictions;  // by kAhead
@@ -37,6 +43,7 @@ struct Evaluation {
   std::optional<StaticFit> static_fit;
   std::optional<Identities> identities;  // where objects came back under new ids
   std::optional<Unlabelled> unlabelled;  // where some were not labelled
+  std::vector<Confusion> ways;           // by kWaysAhead
 };
 
 inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
@@ -66,6 +73,7 @@ class Evaluator {
   BoxFitter boxes_;
   std::optional<SurfaceJudge> judge_;  // where the true surfaces are known
   std::optional<UnlabelledScore> unlabelled_;
+  WayConfusion ways_;
   std::optional<Time> first_;
   Evaluation found_;
 };

@@ -54,6 +54,23 @@ Json ToJson(const std::vector<SolidOverlap>& overlaps) {
   return json;
 }
 
+Json ToJson(const Confusion::Counts& counts) {
+  return {{"free", counts[Confusion::kFree]},
+          {"occupied", counts[Confusion::kOccupied]},
+          {"unknown", counts[Confusion::kUnknown]}};
+}
+
+// By kWaysAhead.
+Json ToJson(const std::vector<Confusion>& ways) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    json.push_back({{"ahead_s", ToSeconds(kWaysAhead[i])},
+                    {"truly_free", ToJson(ways[i].truly_free)},
+                    {"truly_occupied", ToJson(ways[i].truly_occupied)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& found) {
@@ -73,6 +90,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
   }
   json["prediction"] = ToJson(Together(found.predictions));
   if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
+  json["ways"] = ToJson(found.ways);
   if (found.identities) {
     json["identities"] = {{"came_back", found.identities->came_back},
                           {"known_again", found.identities->known_again},

@@ -106,6 +106,23 @@ void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& 
   out << table.ToString();
 }
 
+void PrintWays(std::ostream& out, const std::vector<Confusion>& ways) {
+  out << "\nWhat is said of places that objects pass, in percent: where truly nothing is, and in "
+         "the middle of\nan object.\n\n";
+  Table table(
+      {"ahead", "free: free", "occupied", "unknown", "object: free", "occupied", "unknown"});
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    std::vector<std::string> row = {absl::StrCat(ToSeconds(kWaysAhead[i]), " s")};
+    for (const Confusion::Counts& counts : {ways[i].truly_free, ways[i].truly_occupied}) {
+      for (const auto said : {Confusion::kFree, Confusion::kOccupied, Confusion::kUnknown}) {
+        row.push_back(TextOf(100 * Confusion::Share(counts, said), 2));
+      }
+    }
+    table.AddRow(row);
+  }
+  out << table.ToString();
+}
+
 void PrintStatic(std::ostream& out, const StaticFit& fit) {
   out << "\nThe static map, against the true world to within a voxel: of the voxels that it says "
          "are so, how\nmany are (precision); of the observed ones that are so, how many it says "
@@ -150,6 +167,7 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (!found.solids.empty()) PrintSolids(out, source, found);
+  PrintWays(out, found.ways);
   if (found.identities) PrintIdentities(out, *found.identities);
   if (found.unlabelled) PrintUnlabelled(out, *found.unlabelled);
   if (found.static_fit) PrintStatic(out, *found.static_fit);

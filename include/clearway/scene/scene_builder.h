@@ -39,7 +39,7 @@ struct FrameReport {
   // Where the sensor is in the scene's world: as the frame says, unless its pose was mended
   // (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is where
   // the source's world lies in the scene's.
-  Pose T_W_S;
+  Pose T_W_S = {};
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at

@@ -1,0 +1,61 @@
+// What a scene says of the places that objects pass, against who is really there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "absl/container/inlined_vector.h"
+#include "clearway/report/truth.h"
+#include "clearway/scene/scene_snapshot.h"
+
+namespace clearway {
+
+// Counts of voxels by what is really there and by what is said of them.
+struct Confusion {
+  enum Said { kFree, kOccupied, kUnknown };  // unknown: whatever is neither
+  using Counts = std::array<std::int64_t, 3>;
+  Counts truly_free{};      // nothing is near
+  Counts truly_occupied{};  // well inside an object
+
+  // 0 to 1; NaN of nothing.
+  static double Share(const Counts& counts, Said said);
+
+  Confusion& operator+=(const Confusion& other);
+};
+
+// Asks versions of a scene about a grid over the ways of all objects of a sequence: every fourth
+// voxel, along each axis, that one of their true boxes ever holds. There it is known what is free:
+// where an object has passed or will pass, nothing else stands. At a time, a place is truly
+// occupied in the middle six tenths of a box, as no object fills its box; truly free farther than
+// 0.3 m from every box, as boxes are not exact, if there is a box of every object that ever holds
+// it. Else it is not counted, nor is what lies within 0.3 m of a box's bottom, the ground, or out
+// of the sensor's range. One thread.
+class WayConfusion {
+ public:
+  WayConfusion(Truth truth, std::vector<Duration> ahead);
+
+  // The version after a frame, and from where that was seen. Frames must come in order.
+  void Add(const SceneSnapshot& scene, const Eigen::Vector3d& sensor_W);
+
+  // In the order of `ahead`. Times after the truth's end are left out.
+  const std::vector<Confusion>& Result() const { return confusions_; }
+
+ private:
+  using Ids = absl::InlinedVector<ObjectId, 2>;
+  // A voxel that objects pass.
+  struct Place {
+    Eigen::Vector3d center_W;
+    Ids passed_by;
+  };
+  void FindPlaces(const VoxelGrid& grid, Time first);
+  Confusion At(const SceneSnapshot& scene, Time t, const Eigen::Vector3d& sensor_W) const;
+
+  Truth truth_;
+  std::vector<Duration> ahead_;
+  std::vector<Place> places_;  // found with the first version
+  bool has_places_ = false;
+  std::vector<Confusion> confusions_;
+};
+
+}  // namespace clearway
