@@ -107,10 +107,11 @@ void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& 
 }
 
 void PrintWays(std::ostream& out, const std::vector<Confusion>& ways) {
-  out << "\nWhat is said of places that objects pass, in percent: where truly nothing is, and in "
-         "the middle of\nan object.\n\n";
+  out << "\nWhat is said of places that objects pass, in percent: where there is truly nothing, "
+         "and "
+         "in the\nmiddle of an object, be it one that nobody has seen yet.\n\n";
   Table table(
-      {"ahead", "free: free", "occupied", "unknown", "object: free", "occupied", "unknown"});
+      {"ahead", "nothing: free", "occupied", "unknown", "object: free", "occupied", "unknown"});
   for (std::size_t i = 0; i < ways.size(); ++i) {
     std::vector<std::string> row = {absl::StrCat(ToSeconds(kWaysAhead[i]), " s")};
     for (const Confusion::Counts& counts : {ways[i].truly_free, ways[i].truly_occupied}) {

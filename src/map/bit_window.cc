@@ -28,8 +28,7 @@ void BitWindow::Cover(BlockKey first, BlockKey last) {
   low_ = VoxelAt(first, 0);
   strides_ = {1, size_.x * kBlockSize, size_.x * kBlockSize * size_.y * kBlockSize};
   const std::size_t words = rows() * size_.x * kVoxelsPerBlock / 32;
-  // Left as large as it was: new words cost time.
-  if (words_.size() < words) words_.resize(words, at_rest_ == AtRest::kSet ? ~std::uint32_t{0} : 0);
+  if (words_.size() < words) words_.resize(words);  // left as large as it was: new words cost time
 }
 
 bool BitWindow::AllSet(VoxelKey min, VoxelKey max) const {

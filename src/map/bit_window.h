@@ -14,15 +14,11 @@ namespace clearway {
 // one addition to the index of the bit. One thread at a time.
 class BitWindow {
  public:
-  enum class AtRest : bool { kClear, kSet };
-  // How bits are that nobody has changed. TakeRow is for windows that are clear at rest.
-  explicit BitWindow(AtRest at_rest = AtRest::kClear) : at_rest_(at_rest) {}
-
   // Whether a window from block `first` to block `last` is small enough to be worth its memory.
   static bool Fits(BlockKey first, BlockKey last);
 
-  // Takes the blocks [first, last], which must fit. All bits must be as at rest; memory is kept
-  // from before.
+  // Takes the blocks [first, last], which must fit. Bits that were set before are set still, and no
+  // one knows where; if all were taken, all are clear. Memory is kept from before.
   void Cover(BlockKey first, BlockKey last);
 
   std::int32_t IndexOf(VoxelKey key) const {
@@ -58,7 +54,6 @@ class BitWindow {
 
   std::uint32_t* Row(std::size_t row, int line);
 
-  AtRest at_rest_;
   BlockKey first_;
   BlockKey size_;  // in blocks; along x a multiple of kBlocksPerWord
   VoxelKey low_;

@@ -61,8 +61,7 @@ void PassedVoxels::Sector::FindIn(BlockKey first, BlockKey last,
   for (auto& [candidate, found] : passed) {
     const auto& [key, mask] = candidates[candidate];
     mask.ForEach([&, block = key, &found = found](int at) {
-      const VoxelKey voxel = VoxelAt(block, at);
-      window.Test(voxel) ? found.Set(at) : window.Set(voxel);
+      if (window.Test(VoxelAt(block, at))) found.Set(at);
     });
   }
 }

@@ -19,8 +19,8 @@ class PassedVoxels {
  public:
   void Clear();
   void Add(const RaySegment& ray);
-  // Of each candidate, no block twice, the voxels that a ray visits as WalkRay does. The result
-  // does not depend on the number of threads.
+  // Of each candidate, no block twice, the voxels that a ray visits as WalkRay does. Once after the
+  // rays were added. The result does not depend on the number of threads.
   std::vector<BlockMask> Among(std::span<const BitWindow::Block> candidates, const VoxelGrid& grid,
                                ThreadPool& pool);
 
@@ -28,7 +28,7 @@ class PassedVoxels {
   // The rays of one sector.
   struct Sector {
     RayRounds rays;
-    BitWindow window{BitWindow::AtRest::kSet};  // clear: a candidate that no ray has passed so far
+    BitWindow window;  // of its bits, those of candidates alone tell anything
     struct Passed {
       std::size_t candidate;
       BlockMask mask;

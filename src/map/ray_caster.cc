@@ -108,12 +108,13 @@ ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const Ray
   ScanUpdate update = Cast(map.grid(), cloud, options);
   if (options.grazing_m == 0 || cloud.ends.empty()) return update;
   const PreparedRays& rays = impl_->rays;
-  std::vector<RaySegment> ending;  // of those in a row in one voxel the first
+  std::vector<RaySegment> ending;  // with one origin, of those in a row in one voxel the first
   ending.reserve(rays.size());
+  const bool one_origin = cloud.origins.size() == 1;
   VoxelKey last;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
-    if (!ending.empty() && rays.keys[i] == last) continue;
+    if (one_origin && !ending.empty() && rays.keys[i] == last) continue;
     last = rays.keys[i];
     ending.push_back({OriginOf(cloud, i), rays.ends[i]});
   }

@@ -65,7 +65,11 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
-    : scene_(SceneSnapshot::Empty(params)), limits_(limits), pool_(&pool), caster_(pool) {}
+    : scene_(SceneSnapshot::Empty(params)),
+      corrections_(params.history),
+      limits_(limits),
+      pool_(&pool),
+      caster_(pool) {}
 
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
@@ -73,8 +77,11 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (!MendsSensorPoses(scene_.params)) return ApplyInScene(frame);
 
   WorldCorrections corrections = corrections_;
-  corrections.Add(frame.stamp,
-                  RegisterWorld(frame, scene_.static_map_W, corrections_, scene_.params));
+  const bool is_known = !corrections.Empty() && corrections.NewestStamp() == frame.stamp;
+  if (!is_known) {  // else by another sensor's scan, and objects are placed by it
+    corrections.Add(frame.stamp,
+                    RegisterWorld(frame, scene_.LastingMap(), corrections_, scene_.params));
+  }
   absl::StatusOr<FrameReport> report = ApplyInScene(CarriedBy(corrections, frame));
   if (report.ok()) corrections_ = std::move(corrections);
   return report;
@@ -187,7 +194,7 @@ void SceneBuilder::Reset() {
   const std::uint64_t version = scene_.version;
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
-  corrections_ = WorldCorrections();
+  corrections_ = WorldCorrections(scene_.params.history);
   has_frames_ = false;
   changed_ = true;
 }

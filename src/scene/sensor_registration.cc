@@ -15,29 +15,42 @@ constexpr RegistrationWeights kWeights = {.trust = 1, .least_step = 1e-4, .guess
 constexpr int kCoarseBits = 3, kFineBits = 2;  // of the cells
 
 // Whether the point is one of a static surface that the map holds.
-bool IsStatic(const Frame& frame, std::size_t i, const SceneParams& params) {
+bool IsStatic(const Frame& frame, std::size_t i, double reach_m, const SceneParams& params) {
   if (frame.labels[i] != kStaticLabel) return false;
   if (!frame.no_return.empty() && frame.no_return[i] != 0) return false;
   const Eigen::Vector3d p_S = frame.points_S[i].cast<double>();
-  const double range_m = params.rays.max_range_m;
-  const double reach_m = range_m > 0 ? range_m : VoxelGrid(params.resolution_m).limit_m();
   if (!(p_S.norm() <= reach_m)) return false;  // of what is not finite, too
   return std::ranges::none_of(params.self_filter_S,
                               [&](const Aabb& box_S) { return box_S.Contains(p_S); });
 }
 
-// Static points of the scan, in S: at most one of each cube of a block's size, so that what is near
-// and dense does not outweigh what is far, and of these again some evenly.
-std::vector<Eigen::Vector3d> SpreadPoints(const Frame& frame, const SceneParams& params) {
-  constexpr std::size_t kLookedAt = 40'000, kMost = 1'500;
-  const VoxelGrid cubes_S(kBlockSize * params.resolution_m);
+// Static points of the scan, in S: at most one of each cube of so many voxels, so that what is near
+// and dense does not outweigh what is far.
+std::vector<Eigen::Vector3d> OneOfEachCube(const Frame& frame, int voxels,
+                                           const SceneParams& params) {
+  constexpr std::size_t kLookedAt = 40'000;
+  const VoxelGrid cubes_S(voxels * params.resolution_m);
+  const double limit_m = VoxelGrid(params.resolution_m).limit_m(),
+               range_m = params.rays.max_range_m;
+  const double reach_m = range_m > 0 ? std::min(range_m, limit_m) : limit_m;
   const std::size_t step = frame.points_S.size() / kLookedAt + 1;
   absl::flat_hash_set<VoxelKey> taken;
   std::vector<Eigen::Vector3d> points_S;
   for (std::size_t i = 0; i < frame.points_S.size(); i += step) {
-    if (!IsStatic(frame, i, params)) continue;
+    if (!IsStatic(frame, i, reach_m, params)) continue;
     const Eigen::Vector3d p_S = frame.points_S[i].cast<double>();
     if (taken.insert(cubes_S.KeyOf(p_S)).second) points_S.push_back(p_S);
+  }
+  return points_S;
+}
+
+// Of cubes of a block's size; of smaller ones where the scan shows so little that they would be
+// few. Of these again some evenly.
+std::vector<Eigen::Vector3d> SpreadPoints(const Frame& frame, const SceneParams& params) {
+  constexpr std::size_t kMost = 1'500, kEnough = 200;
+  std::vector<Eigen::Vector3d> points_S;
+  for (int voxels = kBlockSize; voxels >= 1 && points_S.size() < kEnough; voxels /= 2) {
+    points_S = OneOfEachCube(frame, voxels, params);
   }
   const std::size_t all = points_S.size(), few = std::min(all, kMost);
   for (std::size_t i = 0; i < few; ++i) points_S[i] = points_S[i * all / few];
@@ -62,11 +75,12 @@ std::vector<SensorGuess> GuessesOf(const Frame& frame_V, const WorldCorrections&
     return SensorGuess{T_W_S, std::max(share * params.sensor_pose_error_m / kMeanOverSigma, kLeast),
                        std::max(share * params.sensor_pose_error_rad / kMeanOverSigma, kLeast)};
   };
-  std::vector<SensorGuess> guesses = {guess(frame_V.T_W_S, 1)};
+  const Pose T_V_S{frame_V.T_W_S.rotation.normalized(), frame_V.T_W_S.translation};
+  std::vector<SensorGuess> guesses = {guess(T_V_S, 1)};
   if (before.Empty()) return guesses;
   const double passed_s = ToSeconds(frame_V.stamp - before.NewestStamp());
   const double changed = std::sqrt(2 * (1 - std::exp(-passed_s / kForgotten_s)));
-  guesses.push_back(guess(before.At(frame_V.stamp) * frame_V.T_W_S, changed));
+  guesses.push_back(guess(before.At(frame_V.stamp) * T_V_S, changed));
   return guesses;
 }
 
@@ -112,9 +126,11 @@ Pose RegisterWorld(const Frame& frame_V, const VoxelMap& static_map_W,
   constexpr std::size_t kFewest = 50;  // points near the map
   std::vector<Eigen::Vector3d> points_S = SpreadPoints(frame_V, params);
   const std::vector<SensorGuess> guesses = GuessesOf(frame_V, before, params);
-  const Pose T_W_S = guesses.back().T_W_S;
-  MapAround map(static_map_W, T_W_S.translation);
-  if (map.CountNear(points_S, T_W_S) < kFewest) {
+  MapAround map(static_map_W, guesses.back().T_W_S.translation);
+  const bool any_fits = std::ranges::any_of(guesses, [&](const SensorGuess& guess) {
+    return map.CountNear(points_S, guess.T_W_S) >= kFewest;
+  });
+  if (!any_fits) {
     if (before.Empty()) return {};
     points_S.clear();
   }

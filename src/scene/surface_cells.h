@@ -23,7 +23,7 @@ class SurfaceCells {
  public:
   struct Cell {
     Eigen::Vector3d mean_M;
-    // Three vectors a_i, in 1/m: a point p is sum (a_i (p - mean_O))^2 squared deviations away.
+    // Three vectors a_i, in 1/m: a point p is sum (a_i (p - mean_M))^2 squared deviations away.
     std::array<Eigen::Vector3d, 3> factors;
 
     double Deviation(const Eigen::Vector3d& p_M, int i) const {

@@ -7,9 +7,10 @@ namespace clearway {
 void WorldCorrections::Add(Time stamp, const Pose& T_W_V) {
   if (!poses_.empty() && poses_.back().stamp == stamp) poses_.pop_back();
   poses_.push_back({stamp, T_W_V});
-  const auto keep = std::find_if(poses_.begin(), poses_.end() - 1,
-                                 [&](const Stamped& p) { return stamp - p.stamp <= kept_; });
-  poses_.erase(poses_.begin(), keep);
+  // The last one before that time, too: it held then.
+  const auto after = std::find_if(poses_.begin(), poses_.end() - 1,
+                                  [&](const Stamped& p) { return stamp - p.stamp < kept_; });
+  if (after != poses_.begin()) poses_.erase(poses_.begin(), after - 1);
 }
 
 Pose WorldCorrections::At(Time t) const {
@@ -32,9 +33,9 @@ Frame CarriedBy(const WorldCorrections& corrections, Frame frame) {
   frame.T_W_S = Carried(corrections, stamp, frame.T_W_S);
   for (ObjectPose& pose : frame.poses) pose.T_W_B = Carried(corrections, stamp, pose.T_W_B);
   for (ObjectMotion& motion : frame.motions) {
-    const Pose T_W_V = corrections.At(motion.from);
-    motion.H_W = Carried(corrections, stamp, motion.H_W);
-    if (!(T_W_V == Pose{})) motion.H_W = motion.H_W * Inverse(T_W_V);
+    const Pose before = corrections.At(motion.from), now = corrections.At(stamp);
+    if (before == Pose{} && now == Pose{}) continue;
+    motion.H_W = now * motion.H_W * Inverse(before);
   }
   return frame;
 }

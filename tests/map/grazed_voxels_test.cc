@@ -101,6 +101,15 @@ TEST(GrazedVoxels, NotBeforeAWall) {
   EXPECT_TRUE(MissesIn(UpdateBy(rays, map, {.grazing_m = 4})).contains(ghost));
 }
 
+// Seen from both sides in turn.
+TEST_F(GrazedGround, IsSparedByRaysFromEverywhere) {
+  const Rays rays{{{10.1f, 2.1f, 0.1f}, {10.1f, 2.1f, 0.1f}},
+                  {{0.1f, 2.1f, 0.9f}, {19.9f, 2.1f, 0.9f}},
+                  {RayEnd::kHit, RayEnd::kHit}};
+  EXPECT_GE(OnGround(MissesIn(UpdateBy(rays, map_, {}))), 8);
+  EXPECT_EQ(OnGround(MissesIn(UpdateBy(rays, map_, {.grazing_m = 4}))), 0);
+}
+
 // By definition, ray by ray.
 TEST(GrazedVoxels, OfRandomRaysAndMaps) {
   Random random(5);

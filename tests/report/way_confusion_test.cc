@@ -79,6 +79,20 @@ TEST(WayConfusion, TellsOfWhatIsLeftBehind) {
   EXPECT_EQ(ConfusionOf(scene).truly_free[Confusion::kOccupied], 0);
 }
 
+TEST(WayConfusion, AddsUp) {
+  WayConfusion dut(Moving(), {Duration::zero()});
+  SceneSnapshot scene = FreeScene();
+  dut.Add(scene, Eigen::Vector3d::Zero());
+  const Confusion first = dut.Result()[0];
+  scene.stamp = testing_support::At(5);
+  dut.Add(scene, Eigen::Vector3d::Zero());
+  Confusion expected = ConfusionOf(scene);
+  expected += first;
+  EXPECT_EQ(dut.Result()[0].truly_free, expected.truly_free);
+  EXPECT_EQ(dut.Result()[0].truly_occupied, expected.truly_occupied);
+  EXPECT_GT(expected.truly_free[Confusion::kFree], first.truly_free[Confusion::kFree]);
+}
+
 TEST(WayConfusion, LooksNoFartherThanTheSensor) {
   SceneSnapshot scene = FreeScene();
   scene.params.rays.max_range_m = 0.5;

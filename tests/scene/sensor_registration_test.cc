@@ -17,6 +17,7 @@ using testing_support::AddPoint;
 using testing_support::At;
 using testing_support::BoxSurface;
 using testing_support::FrameAt;
+using testing_support::kRoom_W;
 using testing_support::Random;
 using testing_support::ScanOfRoom;
 using testing_support::SeenOfRoom;
@@ -96,6 +97,23 @@ TEST_F(SensorInARoom, IsFoundWhenTheSourceComesBackToTheTruth) {
   WorldCorrections before;
   before.Add(At(0.9), Turned(8, {1.6, 0.9, 0}));
   EXPECT_LT(Apart_m(Placed(T_W_S_, before), T_W_S_), 0.06);
+}
+
+// A camera before a wall sees few blocks of it, but many voxels: it is as far from it as it sees.
+TEST_F(SensorInARoom, IsFoundByANarrowScan) {
+  const Pose T_W_S = Pose::Translation(4.97, 1, 0.5), T_V_S = Pose::Translation(4.75, 1, 0.5);
+  VoxelMap map_W(0.1);
+  Frame frame = FrameAt(1);
+  frame.T_W_S = T_V_S;
+  for (double y = 0; y < 2; y += 0.02) {
+    for (double z = -0.3; z < 1.3; z += 0.02) {
+      const Eigen::Vector3d p_W(kRoom_W.max.x(), y, z);
+      map_W.Set(map_W.grid().KeyOf(p_W), 3000);
+      AddPoint(frame, kStaticLabel, Inverse(T_W_S) * p_W);
+    }
+  }
+  const Pose dut = RegisterWorld(frame, map_W, WorldCorrections(), Mending()) * T_V_S;
+  EXPECT_LT(Apart_m(dut, T_W_S), 0.08);
 }
 
 // Nothing tells where a plane is along itself, nor how it is turned about its normal.
@@ -255,12 +273,26 @@ TEST_F(SceneOfARoom, ForgetsItsCorrectionsWithTheRest) {
   EXPECT_EQ(dut.Apply(frame)->T_W_S, frame.T_W_S);
 }
 
+// Objects are placed by the first of them.
+TEST_F(SceneOfARoom, IsCorrectedOnceForAllSensorsOfOneStamp) {
+  SceneBuilder dut(Mending(), {}, pool_);
+  for (int k = 0; k < kFrames; ++k) {
+    const Frame frame = FrameOf(k);
+    Frame other = frame;
+    other.T_W_S = other.T_W_S * Pose::Translation(0.1, 0, 0);  // badly calibrated
+    const Pose T_W_V = dut.Apply(frame)->T_W_S * Inverse(frame.T_W_S);
+    EXPECT_LT(Apart_m(dut.Apply(other)->T_W_S, T_W_V * other.T_W_S), 1e-9);
+  }
+}
+
 TEST_F(SceneOfARoom, ARefusedFrameCorrectsNothing) {
-  SceneBuilder dut(Mending(), {}, pool_), other(Mending(), {}, pool_);
+  FrameLimits few;
+  few.max_objects = 5;
+  SceneBuilder dut(Mending(), few, pool_), other(Mending(), few, pool_);
   for (int k = 0; k < kFrames; ++k) {
     Frame refused = FrameOf(k);
-    refused.parts = {{4, 5}, {5, 6}};
-    EXPECT_FALSE(dut.Apply(refused).ok());
+    for (ObjectId id = 50; id < 60; ++id) AddPoint(refused, id, {1, 0.1 * id, 0});
+    EXPECT_EQ(dut.Apply(refused).status().code(), absl::StatusCode::kResourceExhausted);
     EXPECT_EQ(dut.Apply(FrameOf(k))->T_W_S, other.Apply(FrameOf(k))->T_W_S);
   }
 }

@@ -47,6 +47,8 @@ TEST(WorldCorrections, OldOnesAreForgotten) {
   EXPECT_EQ(dut.At(At(0)), Pose::Translation(3, 0, 0));
   EXPECT_EQ(dut.At(At(3)), Pose::Translation(3, 0, 0));
   dut.Add(At(100), Pose{});
+  EXPECT_EQ(dut.At(At(3)), Pose::Translation(5, 0, 0));  // the last one before the gap
+  dut.Add(At(103), Pose{});
   EXPECT_EQ(dut.At(At(3)), Pose{});
 }
 

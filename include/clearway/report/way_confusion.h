@@ -16,7 +16,7 @@ struct Confusion {
   enum Said { kFree, kOccupied, kUnknown };  // unknown: whatever is neither
   using Counts = std::array<std::int64_t, 3>;
   Counts truly_free{};      // nothing is near
-  Counts truly_occupied{};  // well inside an object
+  Counts truly_occupied{};  // well inside an object, be it one that the scene has not seen yet
 
   // 0 to 1; NaN of nothing.
   static double Share(const Counts& counts, Said said);
@@ -25,7 +25,8 @@ struct Confusion {
 };
 
 // Asks versions of a scene about a grid over the ways of all objects of a sequence: every fourth
-// voxel, along each axis, that one of their true boxes ever holds. There it is known what is free:
+// voxel, along each axis, whose centre one of their true boxes ever holds, looked at ten times a
+// second. There it is known what is free:
 // where an object has passed or will pass, nothing else stands. At a time, a place is truly
 // occupied in the middle six tenths of a box, as no object fills its box; truly free farther than
 // 0.3 m from every box, as boxes are not exact, if there is a box of every object that ever holds
