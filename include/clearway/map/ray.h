@@ -20,9 +20,8 @@ struct RayOptions {
   // voxels that hold the surface. Of what it passes in so many metres before its end and in one
   // layer of voxels with that, what is occupied stays as it is. A layer lies across an axis along
   // which the end's voxel has no occupied neighbour: with one, the surface does not lie in the
-  // layer, and the ray meets it head on. Of rays in a row from one origin for all that end in one
-  // voxel the first alone is looked at: others pass nearly the same. Metres; 0: it counts as
-  // traversed, as in OctoMap.
+  // layer, and the ray meets it head on. With one origin, of rays in a row that end in one voxel
+  // the first alone is looked at. Metres; 0: it counts as traversed, as in OctoMap.
   double grazing_m = 0;
   bool operator==(const RayOptions&) const = default;
 };
