@@ -74,19 +74,13 @@ void PassedVoxels::Sector::FindSparsely(std::span<const BitWindow::Block> candid
     by_key.emplace(candidates[i].key, i);
     passed.push_back({i, {}});
   }
-  for (std::size_t round = 0; round < RayRounds::kCount; ++round) {
-    for (const RaySegments& eight : rays.round(round)) {
-      for (int lane = 0; lane < kRayLanes; ++lane) {
-        const auto [origin, end] = SegmentIn(eight, lane);
-        WalkRay(grid, origin, end, [&](VoxelKey voxel) {
-          const auto entry = by_key.find(BlockOf(voxel));
-          if (entry == by_key.end()) return;
-          const int at = IndexInBlock(voxel);
-          if (candidates[entry->second].mask.Test(at)) passed[entry->second].mask.Set(at);
-        });
-      }
-    }
-  }
+  const auto look_at = [&](VoxelKey voxel) {
+    const auto entry = by_key.find(BlockOf(voxel));
+    if (entry == by_key.end()) return;
+    const int at = IndexInBlock(voxel);
+    if (candidates[entry->second].mask.Test(at)) passed[entry->second].mask.Set(at);
+  };
+  rays.ForEach([&](const RaySegment& ray) { WalkRay(grid, ray.origin, ray.end, look_at); });
 }
 
 }  // namespace clearway

@@ -12,9 +12,8 @@
 
 namespace clearway {
 
-// Looks for the voxels of some blocks that rays pass, and leaves all others unlooked at: faster
-// than to mark all that they pass. Keeps its memory from one search to the next. One thread at a
-// time.
+// Of all that rays pass, gathers only what lies in some blocks: faster than to gather everything.
+// Keeps its memory from one search to the next. One thread at a time.
 class PassedVoxels {
  public:
   void Clear();

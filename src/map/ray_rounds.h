@@ -39,6 +39,15 @@ class RayRounds {
   std::size_t size() const { return size_; }
   // Once finished. Some may be rays that go nowhere.
   const std::vector<RaySegments>& round(std::size_t i) const { return rounds_[i]; }
+  // Calls visit(RaySegment) for each of them, round by round.
+  template <class Visit>
+  void ForEach(Visit&& visit) const {
+    for (const auto& round : rounds_) {
+      for (const RaySegments& eight : round) {
+        for (int lane = 0; lane < kRayLanes; ++lane) visit(SegmentIn(eight, lane));
+      }
+    }
+  }
   // Where all rays begin, and where they end, those that go nowhere too. There must be a ray. Looks
   // at each.
   struct Boxes {

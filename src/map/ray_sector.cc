@@ -29,14 +29,9 @@ const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
 // Without a window, which would be too large.
 void RaySector::MarkSparsely(const VoxelGrid& grid) {
   ScanUpdate update;
-  for (std::size_t round = 0; round < RayRounds::kCount; ++round) {
-    for (const RaySegments& rays : rays_.round(round)) {
-      for (int lane = 0; lane < kRayLanes; ++lane) {
-        const auto [origin, end] = SegmentIn(rays, lane);
-        WalkRay(grid, origin, end, [&](VoxelKey key) { update.MarkFree(key); });
-      }
-    }
-  }
+  rays_.ForEach([&](const RaySegment& ray) {
+    WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { update.MarkFree(key); });
+  });
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
     blocks_.push_back({update.keys()[i], update.block(i).free});
   }
