@@ -79,7 +79,7 @@ Truth TruthFor(const LidarFolder& folder, const SceneParams& params) {
     if (!frame.ok()) std::abort();
     const auto report = builder.Apply(*frame);
     if (!report.ok()) std::abort();
-    corrections.Add(frame->stamp, report->T_W_S * Inverse(frame->T_W_S));
+    corrections.Add(frame->stamp, *report->T_W_S * Inverse(frame->T_W_S));
   }
   return CarriedBy(std::move(corrections), TruthOf(folder));
 }

@@ -100,7 +100,7 @@ Fits Reconstruct(const Setup& setup, const std::string& suffix, benchmark::State
     const Frame seen = WithWrongLabels(frame, setup.wrong_labels, setup.options.seed);
     const auto report = builder.Apply(seen);
     if (!report.ok()) std::abort();
-    frame.T_W_S = report->T_W_S;
+    frame.T_W_S = *report->T_W_S;
     judge.Add(k, frame, *builder.Publish());
   }
   CountObjects(judge.Fits(), suffix, state);

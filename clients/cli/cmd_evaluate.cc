@@ -96,7 +96,7 @@ absl::Status CarryTruth(const Flags& flags, const Terminal& terminal, TrueSource
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t, const Frame& frame, const Frame&, const FrameReport& report,
                        SceneBuilder&) {
-    corrections.Add(frame.stamp, report.T_W_S * Inverse(frame.T_W_S));
+    corrections.Add(frame.stamp, *report.T_W_S * Inverse(frame.T_W_S));
   };
   absl::Status status = MakeScene(source, flags, terminal, teller, add);
   if (status.ok()) source.truth = CarriedBy(std::move(corrections), source.truth);
@@ -109,7 +109,7 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t k, Frame frame, const Frame& told, const FrameReport& report,
                        SceneBuilder& builder) {
-    frame.T_W_S = report.T_W_S;
+    frame.T_W_S = *report.T_W_S;
     evaluator.Add(k, frame, teller.WithTrueNames(told, builder.Publish()));
   };
   if (auto status = MakeScene(source, flags, terminal, teller, add); !status.ok()) return status;

@@ -174,7 +174,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_objects_reidentified(ack.report.objects_reidentified);
   report->set_points_doubted(ack.report.points_doubted);
   report->set_voxels_dynamic(ack.report.voxels_dynamic);
-  Write(ack.report.T_W_S, report->mutable_world_from_sensor());
+  if (ack.report.T_W_S) Write(*ack.report.T_W_S, report->mutable_world_from_sensor());
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -195,9 +195,11 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.objects_reidentified = report.objects_reidentified();
   ack.report.points_doubted = report.points_doubted();
   ack.report.voxels_dynamic = report.voxels_dynamic();
-  FieldReader read("report.");
-  ack.report.T_W_S = read.ReadPose("world_from_sensor", report.has_world_from_sensor(),
-                                   report.world_from_sensor());
+  if (report.has_world_from_sensor()) {
+    FieldReader read("report.");
+    const Pose T_W_S = read.ReadPose("world_from_sensor", true, report.world_from_sensor());
+    if (read.ok()) ack.report.T_W_S = T_W_S;
+  }
   return ack;
 }
 

@@ -211,7 +211,7 @@ TEST_F(SceneOfARoom, TakesAllFramesAsTheyAreUnlessTold) {
 TEST_F(SceneOfARoom, KeepsTheSensorWhereItTrulyIs) {
   SceneBuilder dut(Mending(), {}, pool_);
   for (int k = 0; k < kFrames; ++k) {
-    const Pose T_W_S = dut.Apply(FrameOf(k))->T_W_S;
+    const Pose T_W_S = dut.Apply(FrameOf(k))->T_W_S.value();
     EXPECT_LT(Apart_m(T_W_S, TrueT_W_S(k)), 0.06) << k;
     EXPECT_LT(Apart_deg(T_W_S, TrueT_W_S(k)), 0.3) << k;
   }
@@ -225,7 +225,7 @@ TEST_F(SceneOfARoom, FindsItselfInAPrior) {
   SceneBuilder dut(Mending(), {}, pool_);
   ASSERT_TRUE(dut.LoadPrior(mapper.Publish()->static_map_W).ok());
   const Frame frame = ScanOfRoom(1, TrueT_W_S(5), TrueT_W_S(5) * Turned(1, {0.2, 0.1, 0.1}));
-  EXPECT_LT(Apart_m(dut.Apply(frame)->T_W_S, TrueT_W_S(5)), 0.06);
+  EXPECT_LT(Apart_m(dut.Apply(frame)->T_W_S.value(), TrueT_W_S(5)), 0.06);
 }
 
 // Told by its poses and by its motions: in the room it stands still, in the source's world it does
@@ -280,8 +280,8 @@ TEST_F(SceneOfARoom, IsCorrectedOnceForAllSensorsOfOneStamp) {
     const Frame frame = FrameOf(k);
     Frame other = frame;
     other.T_W_S = other.T_W_S * Pose::Translation(0.1, 0, 0);  // badly calibrated
-    const Pose T_W_V = dut.Apply(frame)->T_W_S * Inverse(frame.T_W_S);
-    EXPECT_LT(Apart_m(dut.Apply(other)->T_W_S, T_W_V * other.T_W_S), 1e-9);
+    const Pose T_W_V = dut.Apply(frame)->T_W_S.value() * Inverse(frame.T_W_S);
+    EXPECT_LT(Apart_m(dut.Apply(other)->T_W_S.value(), T_W_V * other.T_W_S), 1e-9);
   }
 }
 

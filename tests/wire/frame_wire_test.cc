@@ -212,6 +212,15 @@ TEST(FrameWire, AcksComeBack) {
   EXPECT_EQ(dut.report.T_W_S, T_W_S);
 }
 
+TEST(FrameWire, PlaceOfSensorIsLeftOutByOlderServersAndNoneIsMadeUp) {
+  v1::PushFrameResponse proto;
+  proto.set_reached(v1::ACK_LEVEL_APPLIED);
+  proto.mutable_report()->set_points_used(5);
+  EXPECT_FALSE(ReadPushAck(proto).report.T_W_S.has_value());
+  proto.mutable_report()->mutable_world_from_sensor()->mutable_translation_m()->set_x(1);
+  EXPECT_FALSE(ReadPushAck(proto).report.T_W_S.has_value()) << "a pose without a rotation";
+}
+
 TEST(FrameWire, LevelsComeBackAndUnknownOnesDoNot) {
   for (AckLevel level : {AckLevel::kAccepted, AckLevel::kApplied, AckLevel::kDurable}) {
     EXPECT_EQ(*ReadAckLevel("wait_for", ToProto(level)), level);

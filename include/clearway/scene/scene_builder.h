@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "absl/status/statusor.h"
@@ -38,8 +39,8 @@ struct FrameReport {
   std::size_t voxels_dynamic = 0;
   // Where the sensor is in the scene's world: as the frame says, unless its pose was mended
   // (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is where
-  // the source's world lies in the scene's.
-  Pose T_W_S = {};
+  // the source's world lies in the scene's. Always there but from an older server.
+  std::optional<Pose> T_W_S = {};
 };
 
 // The only mutable scene: applies frames in the order of their stamps (II-B to II-D). One thread at
