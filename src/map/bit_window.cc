@@ -1,6 +1,7 @@
 #include "map/bit_window.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace clearway {
 namespace {
@@ -86,6 +87,35 @@ void BitWindow::TakeRow(std::size_t row, std::vector<Block>& blocks) {
       blocks.push_back({{x, row_key.y, row_key.z}, masks[b]});
     }
   }
+}
+
+template <class Visit>
+void BitWindow::ForEachLine(const Block& voxels, Visit&& visit) const {
+  const std::int32_t first = IndexOf(VoxelAt(voxels.key, 0));
+  for (int z = 0; z < kBlockSize; ++z) {
+    std::uint64_t layer = voxels.mask.words[z];
+    while (layer != 0) {
+      const int y = std::countr_zero(layer) / kBlockSize;
+      const std::uint64_t line = layer & std::uint64_t{0xff} << kBlockSize * y;
+      layer ^= line;
+      visit(z, y, first + strides_[1] * y + strides_[2] * z,
+            static_cast<std::uint32_t>(line >> kBlockSize * y));
+    }
+  }
+}
+
+void BitWindow::Clear(const Block& voxels) {
+  ForEachLine(voxels, [&](int, int, std::int32_t index, std::uint32_t bits) {
+    words_[index >> 5] &= ~(bits << (index & 31));
+  });
+}
+
+BlockMask BitWindow::SetOf(const Block& voxels) const {
+  BlockMask set;
+  ForEachLine(voxels, [&](int z, int y, std::int32_t index, std::uint32_t bits) {
+    set.words[z] |= std::uint64_t{words_[index >> 5] >> (index & 31) & bits} << kBlockSize * y;
+  });
+  return set;
 }
 
 }  // namespace clearway

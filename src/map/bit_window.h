@@ -33,9 +33,6 @@ class BitWindow {
 
   bool Test(VoxelKey key) const { return words_[IndexOf(key) >> 5] >> (IndexOf(key) & 31) & 1; }
   void Set(VoxelKey key) { words_[IndexOf(key) >> 5] |= std::uint32_t{1} << (IndexOf(key) & 31); }
-  void Clear(VoxelKey key) {
-    words_[IndexOf(key) >> 5] &= ~(std::uint32_t{1} << (IndexOf(key) & 31));
-  }
 
   // Whether all voxels from `min` to `max` are set; false if one of them lies outside the window.
   bool AllSet(VoxelKey min, VoxelKey max) const;
@@ -49,10 +46,18 @@ class BitWindow {
   };
   void TakeRow(std::size_t row, std::vector<Block>& blocks);
 
+  // Of some voxels of a block of the window: clears them, and tells which are set.
+  void Clear(const Block& voxels);
+  BlockMask SetOf(const Block& voxels) const;
+
  private:
   static constexpr int kBlocksPerWord = 32 / kBlockSize;
 
   std::uint32_t* Row(std::size_t row, int line);
+  // Calls visit(z, y, index, bits) for each line along x of the block in which some of the voxels
+  // lie: the index of its first voxel, and which of its eight they are. A line lies in one word.
+  template <class Visit>
+  void ForEachLine(const Block& voxels, Visit&& visit) const;
 
   BlockKey first_;
   BlockKey size_;  // in blocks; along x a multiple of kBlocksPerWord

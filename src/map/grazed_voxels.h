@@ -1,19 +1,49 @@
 // Voxels that a scan's rays only graze.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/scan_update.h"
 #include "clearway/map/voxel_map.h"
 #include "map/passed_voxels.h"
+#include "map/surface_layers.h"
 
 namespace clearway {
 
-// Takes from the update of a map the misses that RayOptions::grazing_m speaks of. `rays`: those of
-// the scan that end on something, in the map's frame. The result does not depend on the number of
-// threads. `stretches`: memory to work in.
-void SpareGrazed(const VoxelMap& map, std::span<const RaySegment> rays, double grazing_m,
-                 ThreadPool& pool, PassedVoxels& stretches, ScanUpdate& update);
+// A scan's rays in the map's frame, of which some end on something. Arrays are parallel.
+struct EndingRays {
+  static constexpr std::uint32_t kNotEnding = std::numeric_limits<std::uint32_t>::max();
+
+  std::span<const Eigen::Vector3f> origins;  // one for all, or one per ray
+  std::span<const Eigen::Vector3f> ends;
+  std::span<const VoxelKey> voxels;       // of the ends
+  std::span<const std::uint32_t> places;  // in the update, of the voxels' blocks; or kNotEnding
+  std::span<const std::uint8_t> sectors;  // RaySector's
+};
+
+// Keeps its memory from one scan to the next. One thread at a time.
+class GrazedVoxels {
+ public:
+  // Takes from the update of a map the misses that RayOptions::grazing_m speaks of. The result does
+  // not depend on the number of threads.
+  void Spare(const VoxelMap& map, const EndingRays& rays, double grazing_m, ThreadPool& pool,
+             ScanUpdate& update);
+
+ private:
+  // The part of a ray, from its end back, along which it spares what is occupied.
+  struct Stretch {
+    RaySegment segment;
+    std::uint8_t sector;
+  };
+  void FindStretches(const VoxelGrid& grid, const SurfaceLayers& layers, const EndingRays& rays,
+                     double grazing_m, ThreadPool& pool);
+
+  std::vector<std::vector<Stretch>> stretches_;  // of so many rays each
+  PassedVoxels passed_;
+};
 
 }  // namespace clearway

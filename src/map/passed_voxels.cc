@@ -18,10 +18,6 @@ void PassedVoxels::Clear() {
   for (Sector& sector : sectors_) sector.rays.Clear();
 }
 
-void PassedVoxels::Add(const RaySegment& ray) {
-  if (ray.origin == ray.end) return;
-  sectors_[RaySector::IndexOf(ray.end - ray.origin)].rays.Add(ray);
-}
 
 std::vector<BlockMask> PassedVoxels::Among(std::span<const BitWindow::Block> candidates,
                                            const VoxelGrid& grid, ThreadPool& pool) {
@@ -52,18 +48,12 @@ void PassedVoxels::Sector::FindIn(BlockKey first, BlockKey last,
                                   const VoxelGrid& grid) {
   window.Cover(first, last);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const auto& [key, mask] = candidates[i];
-    if (!Holds(first, last, key)) continue;
-    mask.ForEach([&, block = key](int at) { window.Clear(VoxelAt(block, at)); });
+    if (!Holds(first, last, candidates[i].key)) continue;
+    window.Clear(candidates[i]);
     passed.push_back({i, {}});
   }
   MarkRays(grid, rays, false, window);
-  for (auto& [candidate, found] : passed) {
-    const auto& [key, mask] = candidates[candidate];
-    mask.ForEach([&, block = key, &found = found](int at) {
-      if (window.Test(VoxelAt(block, at))) found.Set(at);
-    });
-  }
+  for (auto& [candidate, found] : passed) found = window.SetOf(candidates[candidate]);
 }
 
 // Without a window, which would be too large.

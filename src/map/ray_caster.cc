@@ -18,6 +18,7 @@ struct PreparedRays {
   std::vector<VoxelKey> keys;         // of the points, however far they are
   std::vector<Eigen::Vector3f> ends;  // of the rays
   std::vector<std::uint8_t> within_range, sectors;
+  std::vector<std::uint32_t> places;  // as EndingRays has them, once the ends are marked
 
   std::size_t size() const { return keys.size(); }
 };
@@ -61,9 +62,10 @@ struct RayCaster::Impl {
   // Of the cloud at hand; their memory is kept for the next.
   PreparedRays rays;
   RaySectors sectors;
-  PassedVoxels stretches;
+  GrazedVoxels grazed;
 
   void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
+  void MarkEnds(const RayCloud& cloud, ScanUpdate& update);
 };
 
 void RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
@@ -77,6 +79,19 @@ void RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
       if (i + kAhead < part.size()) update.Prefetch(part[i + kAhead].key);
       update.MarkFree(part[i].key, part[i].mask);
     }
+  }
+}
+
+void RayCaster::Impl::MarkEnds(const RayCloud& cloud, ScanUpdate& update) {
+  rays.places.resize(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) {
+      rays.places[i] = EndingRays::kNotEnding;
+      continue;
+    }
+    const VoxelKey key = rays.keys[i];
+    rays.places[i] = static_cast<std::uint32_t>(
+        cloud.kinds[i] == RayEnd::kHit ? update.MarkHit(key) : update.MarkEnd(key));
   }
 }
 
@@ -97,28 +112,16 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
     impl_->sectors.Add({OriginOf(cloud, i), rays.ends[i]}, rays.sectors[i]);
   });
   impl_->MarkFree(grid, update);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
-    cloud.kinds[i] == RayEnd::kHit ? update.MarkHit(rays.keys[i]) : update.MarkEnd(rays.keys[i]);
-  }
+  impl_->MarkEnds(cloud, update);
   return update;
 }
 
 ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const RayOptions& options) {
   ScanUpdate update = Cast(map.grid(), cloud, options);
   if (options.grazing_m == 0 || cloud.ends.empty()) return update;
-  const PreparedRays& rays = impl_->rays;
-  std::vector<RaySegment> ending;  // with one origin, of those in a row in one voxel the first
-  ending.reserve(rays.size());
-  const bool one_origin = cloud.origins.size() == 1;
-  VoxelKey last;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (cloud.kinds[i] == RayEnd::kClear || !rays.within_range[i]) continue;
-    if (one_origin && !ending.empty() && rays.keys[i] == last) continue;
-    last = rays.keys[i];
-    ending.push_back({OriginOf(cloud, i), rays.ends[i]});
-  }
-  SpareGrazed(map, ending, options.grazing_m, impl_->pool, impl_->stretches, update);
+  const auto& [keys, ends, within_range, sectors, places] = impl_->rays;
+  impl_->grazed.Spare(map, {cloud.origins, ends, keys, places, sectors}, options.grazing_m,
+                      impl_->pool, update);
   return update;
 }
 

@@ -1,5 +1,8 @@
 #include "map/surface_layers.h"
 
+#include <algorithm>
+#include <span>
+
 namespace clearway {
 namespace {
 
@@ -41,34 +44,39 @@ std::uint64_t BesideAlongY(std::uint64_t word, std::uint64_t below, std::uint64_
   return word << 8 | word >> 8 | below >> 56 | above << 56;
 }
 
-std::array<BlockMask, 3> BesideOccupied(const OccupiedAround& occupied) {
+void FindBeside(const OccupiedAround& occupied,
+                std::array<std::array<std::uint64_t, 3>, kBlockSize>& beside) {
   const auto word = [&](Place place, int z) { return occupied[place]->words[z]; };
-  std::array<BlockMask, 3> beside;
   for (int z = 0; z < 8; ++z) {
     const std::uint64_t own = word(kItself, z);
-    beside[0].words[z] = BesideAlongX(own, word(kBelowX, z), word(kAboveX, z));
-    beside[1].words[z] = BesideAlongY(own, word(kBelowY, z), word(kAboveY, z));
-    beside[2].words[z] = (z > 0 ? word(kItself, z - 1) : word(kBelowZ, 7)) |
-                         (z < 7 ? word(kItself, z + 1) : word(kAboveZ, 0));
+    beside[z] = {BesideAlongX(own, word(kBelowX, z), word(kAboveX, z)),
+                 BesideAlongY(own, word(kBelowY, z), word(kAboveY, z)),
+                 (z > 0 ? word(kItself, z - 1) : word(kBelowZ, 7)) |
+                     (z < 7 ? word(kItself, z + 1) : word(kAboveZ, 0))};
   }
-  return beside;
 }
 
 }  // namespace
 
-SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, ThreadPool& pool) {
-  std::vector<BlockKey> keys;  // of each block and those around it in turn
-  for (std::size_t i = 0; i < update.keys().size(); ++i) {
-    if (!update.block(i).end.Any()) continue;
-    index_.emplace(update.keys()[i], index_.size());
-    for (const BlockKey key : Around(update.keys()[i])) keys.push_back(key);
+SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, ThreadPool& pool)
+    : blocks_by_place_(update.keys().size()) {
+  std::vector<BlockKey> keys;
+  for (std::size_t place = 0; place < update.keys().size(); ++place) {
+    if (!update.block(place).end.Any()) continue;
+    blocks_by_place_[place] = static_cast<std::uint32_t>(keys.size());
+    keys.push_back(update.keys()[place]);
   }
-  std::vector<const VoxelBlock*> blocks(keys.size());
-  map.blocks().FindOccupied(keys, blocks.data());
-  beside_.resize(index_.size());
-  pool.ParallelFor(beside_.size(), [&](int, std::size_t begin, std::size_t end) {
+  blocks_.resize(keys.size());
+  constexpr std::size_t kTogether = 32;  // blocks whose memory is waited for at once
+  pool.ParallelChunks(keys.size(), kTogether, [&](int, std::size_t begin, std::size_t end) {
+    std::array<BlockKey, kTogether * kBlocks> around;
+    std::array<const VoxelBlock*, kTogether * kBlocks> found;
     for (std::size_t i = begin; i < end; ++i) {
-      beside_[i] = BesideOccupied(OccupiedIn(&blocks[i * kBlocks]));
+      std::ranges::copy(Around(keys[i]), &around[(i - begin) * kBlocks]);
+    }
+    map.blocks().FindOccupied(std::span(around).first((end - begin) * kBlocks), found.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      FindBeside(OccupiedIn(&found[(i - begin) * kBlocks]), blocks_[i]);
     }
   });
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
-#include "absl/container/flat_hash_map.h"
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/scan_update.h"
 #include "clearway/map/voxel_map.h"
@@ -18,25 +18,24 @@ class SurfaceLayers {
   // Of the map before the scan's update.
   SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, ThreadPool& pool);
 
-  // Of a block, the voxels that have an occupied neighbour along x, y and z.
-  using Beside = std::array<BlockMask, 3>;
-  // A ray of the scan must end in the block.
-  const Beside& In(BlockKey block) const { return beside_[index_.find(block)->second]; }
+  // The axes (bits 0 to 2) along which the voxel has no occupied neighbour: a surface there may lie
+  // across them. A ray of the scan must end in the voxel; `place`: of its block in the update.
+  unsigned AxesAcross(std::size_t place, VoxelKey voxel) const {
+    const int at = IndexInBlock(voxel);
+    const auto& beside = blocks_[blocks_by_place_[place]][at >> 6];
+    unsigned axes = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      axes |= static_cast<unsigned>(~beside[axis] >> (at & 63) & 1) << axis;
+    }
+    return axes;
+  }
 
  private:
-  absl::flat_hash_map<BlockKey, std::size_t> index_;
-  std::vector<Beside> beside_;
-};
+  // Of a block's layers along z, the voxels that have an occupied neighbour along x, y and z.
+  using Beside = std::array<std::array<std::uint64_t, 3>, kBlockSize>;
 
-// The axes (bits 0 to 2) along which the voxel has no occupied neighbour: a surface there may lie
-// across them.
-inline unsigned AxesAcross(const SurfaceLayers::Beside& beside, VoxelKey voxel) {
-  const int at = IndexInBlock(voxel);
-  unsigned axes = 0;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    axes |= static_cast<unsigned>(!beside[axis].Test(at)) << axis;
-  }
-  return axes;
-}
+  std::vector<std::uint32_t> blocks_by_place_;
+  std::vector<Beside> blocks_;  // those in which rays end
+};
 
 }  // namespace clearway

@@ -1,6 +1,7 @@
 #include "scene/dynamic_hits.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <functional>
 #include <optional>
@@ -51,67 +52,95 @@ int CountIn(BlockKey key, const BlockMask& mask, VoxelKey min, VoxelKey max) {
   return count;
 }
 
-// How many bits are set at most two voxels away along each axis, the voxel's own too. mask_of(key)
-// is a block's mask, or null.
+// Whether so many bits are set at most two voxels away along each axis, the voxel's own too.
+// mask_of(key) is a block's mask, or null.
 template <class MaskOf>
-int CountAround(VoxelKey key, MaskOf&& mask_of) {
+bool AreAround(VoxelKey key, int fewest, MaskOf&& mask_of) {
   constexpr std::int32_t kReach = 2;
   const VoxelKey min{key.x - kReach, key.y - kReach, key.z - kReach};
   const VoxelKey max{key.x + kReach, key.y + kReach, key.z + kReach};
   const BlockKey first = BlockOf(min), last = BlockOf(max);
+  const BlockKey own = BlockOf(key);  // often enough
   int count = 0;
+  const auto look_in = [&](BlockKey block) {
+    if (const BlockMask* mask = mask_of(block)) count += CountIn(block, *mask, min, max);
+    return count >= fewest;
+  };
+  if (look_in(own)) return true;
   for (BlockKey block = first; block.z <= last.z; ++block.z) {
     for (block.y = first.y; block.y <= last.y; ++block.y) {
       for (block.x = first.x; block.x <= last.x; ++block.x) {
-        if (const BlockMask* mask = mask_of(block)) count += CountIn(block, *mask, min, max);
+        if (block != own && look_in(block)) return true;
       }
     }
   }
-  return count;
+  return false;
 }
 
 // By blocks.
 using Voxels = absl::flat_hash_map<BlockKey, BlockMask>;
 
-// The hits on voxels that are as free as the map can know them to be.
+// Of a block's hits, those on voxels that are as free as the map can know them to be.
+BlockMask OnFree(const VoxelBlock& block, const BlockMask& on_seen_free, LogOdds freest) {
+  BlockMask on_free = on_seen_free;
+  on_seen_free.ForEach([&](int index) {
+    if (block.log_odds[index] != freest) on_free.Clear(index);
+  });
+  return on_free;
+}
+
+struct SeenFree {
+  const VoxelBlock* block;
+  BlockKey key;
+  BlockMask hits;
+};
+
 Voxels HitsOnFree(const VoxelMap& map, const ScanUpdate& update) {
-  std::vector<BlockKey> keys;
-  std::vector<const BlockMask*> hits;
+  constexpr std::size_t kTogether = 128;  // blocks whose memory is waited for at once
+  std::vector<std::size_t> hit;
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
-    if (!update.block(i).hit.Any()) continue;
-    keys.push_back(update.keys()[i]);
-    hits.push_back(&update.block(i).hit);
+    if (update.block(i).hit.Any()) hit.push_back(i);
   }
-  std::vector<const VoxelBlock*> blocks(keys.size());
-  map.blocks().FindAll(keys, blocks.data());
   Voxels on_free;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (blocks[i] == nullptr) continue;
-    BlockMask free = *hits[i];
-    free &= blocks[i]->observed;
-    free.Subtract(blocks[i]->occupied);
-    free.ForEach([&](int index) {
-      if (blocks[i]->log_odds[index] != map.model().clamp_min) free.Clear(index);
-    });
-    if (free.Any()) on_free.emplace(keys[i], free);
+  std::array<BlockKey, kTogether> keys;
+  std::array<const VoxelBlock*, kTogether> blocks;
+  std::vector<SeenFree> seen_free;
+  for (std::size_t begin = 0; begin < hit.size(); begin += kTogether) {
+    const std::size_t count = std::min(kTogether, hit.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) keys[i] = update.keys()[hit[begin + i]];
+    map.blocks().FindAll(std::span(keys).first(count), blocks.data());
+    seen_free.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (blocks[i] == nullptr) continue;
+      BlockMask hits = update.block(hit[begin + i]).hit;
+      hits &= blocks[i]->observed;
+      hits.Subtract(blocks[i]->occupied);
+      if (!hits.Any()) continue;
+      hits.ForEach([&](int index) { __builtin_prefetch(&blocks[i]->log_odds[index]); });
+      seen_free.push_back({blocks[i], keys[i], hits});
+    }
+    for (const auto& [block, key, hits] : seen_free) {
+      const BlockMask found = OnFree(*block, hits, map.model().clamp_min);
+      if (found.Any()) on_free.emplace(key, found);
+    }
   }
   return on_free;
 }
 
 bool IsBesideSurface(const VoxelMap& map, VoxelKey key) {
-  return CountAround(key, [&](BlockKey block_key) {
-           const VoxelBlock* block = map.blocks().Find(block_key);
-           return block == nullptr ? nullptr : &block->occupied;
-         }) > 0;
+  return AreAround(key, 1, [&](BlockKey block_key) {
+    const VoxelBlock* block = map.blocks().Find(block_key);
+    return block == nullptr ? nullptr : &block->occupied;
+  });
 }
 
 // Whether there are a few more nearby.
 bool HasCompany(const Voxels& voxels, VoxelKey key) {
   constexpr int kFewest = 3;  // itself too
-  return CountAround(key, [&](BlockKey block_key) {
-           const auto block = voxels.find(block_key);
-           return block == voxels.end() ? nullptr : &block->second;
-         }) >= kFewest;
+  return AreAround(key, kFewest, [&](BlockKey block_key) {
+    const auto block = voxels.find(block_key);
+    return block == voxels.end() ? nullptr : &block->second;
+  });
 }
 
 bool IsPassed(const ScanUpdate& update, VoxelKey key) {

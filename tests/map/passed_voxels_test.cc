@@ -47,7 +47,7 @@ std::vector<BlockMask> Passed(const std::vector<BitWindow::Block>& candidates,
                               int threads = 1) {
   ThreadPool pool(threads);
   dut.Clear();
-  for (const RaySegment& ray : rays) dut.Add(ray);
+  for (const RaySegment& ray : rays) dut.Add(ray, RaySector::IndexOf(ray.end - ray.origin));
   return dut.Among(candidates, kGrid, pool);
 }
 

@@ -21,15 +21,20 @@ class ScanUpdate {
 
   void MarkFree(BlockKey key, const BlockMask& mask) { BlockFor(key).free |= mask; }
   void MarkFree(VoxelKey key) { BlockFor(BlockOf(key)).free.Set(IndexInBlock(key)); }
-  void MarkHit(VoxelKey key) {
+  // These two tell the block's place in keys().
+  std::size_t MarkHit(VoxelKey key) {
     Block& block = BlockFor(BlockOf(key));
     block.hit.Set(IndexInBlock(key));
     block.end.Set(IndexInBlock(key));
+    return last_;
+  }
+  std::size_t MarkEnd(VoxelKey key) {
+    BlockFor(BlockOf(key)).end.Set(IndexInBlock(key));
+    return last_;
   }
   // Takes a hit back: a ray ended there, and that is all.
   void TakeHit(VoxelKey key) { BlockFor(BlockOf(key)).hit.Clear(IndexInBlock(key)); }
   void MarkEnd(BlockKey key, const BlockMask& mask) { BlockFor(key).end |= mask; }
-  void MarkEnd(VoxelKey key) { BlockFor(BlockOf(key)).end.Set(IndexInBlock(key)); }
 
   bool Empty() const { return blocks_.empty(); }
   const Block* Find(BlockKey key) const;
