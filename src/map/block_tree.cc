@@ -56,15 +56,14 @@ const BlockTree::Upper* BlockTree::FindRoot(BlockKey root_key) const {
   }
 }
 
-const BlockTree::Lower* BlockTree::FindLower(BlockKey key) const {
-  const Upper* upper = FindRoot(RootKey(key));
+const BlockTree::Lower* BlockTree::LowerIn(const Upper* upper, BlockKey key) {
   if (upper == nullptr) return nullptr;
   const Middle* middle = upper->children[Slot(key, 2 * kFanBits)].get();
   return middle == nullptr ? nullptr : middle->children[Slot(key, kFanBits)].get();
 }
 
 const VoxelBlock* BlockTree::Find(BlockKey key) const {
-  const Lower* lower = FindLower(key);
+  const Lower* lower = LowerIn(FindRoot(RootKey(key)), key);
   if (lower == nullptr) return nullptr;
   const Leaf* leaf = lower->children[Slot(key, 0)].get();
   return leaf == nullptr ? nullptr : &leaf->block;
@@ -75,13 +74,15 @@ void BlockTree::FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) 
   constexpr std::size_t kAtOnce = 64;  // memory accesses under way
   static const Lower kNone;
   static const LeafPtr kNoLeaf;
+  const Upper* upper = nullptr;
   for (std::size_t begin = 0; begin < keys.size(); begin += kAtOnce) {
     const std::size_t end = std::min(begin + kAtOnce, keys.size());
     const LeafPtr* places[kAtOnce];
     const Lower* lower = nullptr;
     for (std::size_t i = begin; i < end; ++i) {
       if (i == begin || !Share(keys[i], keys[i - 1], kFanBits)) {
-        lower = FindLower(keys[i]);
+        if (i == 0 || !Share(keys[i], keys[i - 1], kRootBits)) upper = FindRoot(RootKey(keys[i]));
+        lower = LowerIn(upper, keys[i]);
         if (lower == nullptr) lower = &kNone;
       }
       const int slot = Slot(keys[i], 0);

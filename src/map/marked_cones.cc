@@ -70,7 +70,7 @@ void MarkedCones::FindDepths(const LaneFloats (&direction)[3], const BitWindow& 
   Level& narrow = levels_[0];
   LaneInts cell;
   CellsOf(direction[axis_], direction[b_], direction[c_], narrow.across, cell);
-  for (int lane = 0; lane < kRayLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     const Cone& cone = narrow.cones[cell[lane]];
     const int layers = cone.looked_in == round_ ? cone.layers
                                                 : Layers(0, cell[lane] % narrow.across,

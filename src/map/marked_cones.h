@@ -8,7 +8,7 @@
 
 #include "clearway/map/voxel_key.h"
 #include "map/bit_window.h"
-#include "map/lanes.h"
+#include "base/lanes.h"
 
 namespace clearway {
 

@@ -9,11 +9,11 @@
 namespace clearway {
 namespace {
 
-using Mask [[gnu::vector_size(kRayLanes * 8), gnu::aligned(kRayLanes * 8)]] = std::int64_t;
+using Mask [[gnu::vector_size(kLanes * 8), gnu::aligned(kLanes * 8)]] = std::int64_t;
 
 double Least(const LaneDoubles& values) {
   double least = values[0];
-  for (int lane = 1; lane < kRayLanes; ++lane) least = std::min(least, values[lane]);
+  for (int lane = 1; lane < kLanes; ++lane) least = std::min(least, values[lane]);
   return least;
 }
 
@@ -35,7 +35,7 @@ CLEARWAY_MULTIVERSION void Start(double resolution_m, const RaySegments& segment
   const LaneFloats square =
       difference[0] * difference[0] + difference[1] * difference[1] + difference[2] * difference[2];
   LaneFloats length;
-  for (int lane = 0; lane < kRayLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     length[lane] = static_cast<float>(std::sqrt(static_cast<double>(square[lane])));
   }
   rays.length_m = __builtin_convertvector(length, LaneDoubles);

@@ -5,7 +5,7 @@
 
 #include "clearway/map/ray.h"
 #include "map/bit_window.h"
-#include "map/lanes.h"
+#include "base/lanes.h"
 #include "map/window_walk.h"
 
 namespace clearway {

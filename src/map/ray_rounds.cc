@@ -21,8 +21,8 @@ void DealTo(std::vector<RaySegments>& round, const std::array<std::size_t, kPlac
             std::span<const RaySegment> rows) {
   for (std::size_t eight = 0; eight < kPlaces; ++eight) {
     RaySegments& rays = round.emplace_back();
-    for (int lane = 0; lane < kRayLanes; ++lane) {
-      const std::size_t i = eight * kRayLanes + lane;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = eight * kLanes + lane;
       Put(rows[i / kPlaces * RayRounds::kInARow + places[i % kPlaces]], lane, rays);
     }
   }
@@ -60,7 +60,7 @@ LaneBoxes Empty() {
 
 Eigen::AlignedBox3f Around(const LaneBoxes& boxes) {
   Eigen::AlignedBox3f box;
-  for (int lane = 0; lane < kRayLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     box.extend(Eigen::Vector3f(boxes.min[0][lane], boxes.min[1][lane], boxes.min[2][lane]));
     box.extend(Eigen::Vector3f(boxes.max[0][lane], boxes.max[1][lane], boxes.max[2][lane]));
   }

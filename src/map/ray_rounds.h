@@ -44,7 +44,7 @@ class RayRounds {
   void ForEach(Visit&& visit) const {
     for (const auto& round : rounds_) {
       for (const RaySegments& eight : round) {
-        for (int lane = 0; lane < kRayLanes; ++lane) visit(SegmentIn(eight, lane));
+        for (int lane = 0; lane < kLanes; ++lane) visit(SegmentIn(eight, lane));
       }
     }
   }
@@ -56,7 +56,7 @@ class RayRounds {
   Boxes BoxesAround() const;
 
  private:
-  static constexpr std::size_t kDealtTogether = kInARow * kRayLanes;  // whole eights to each round
+  static constexpr std::size_t kDealtTogether = kInARow * kLanes;  // whole eights to each round
 
   void Deal();
 

@@ -41,9 +41,9 @@ class Queue {
 
   // False after the last one.
   bool Next(LaneRay& ray) {
-    for (; next_ < rays_.size() * kRayLanes; ++next_) {
-      const WindowRays& rays = rays_[next_ / kRayLanes];
-      const auto lane = static_cast<int>(next_ % kRayLanes);
+    for (; next_ < rays_.size() * kLanes; ++next_) {
+      const WindowRays& rays = rays_[next_ / kLanes];
+      const auto lane = static_cast<int>(next_ % kLanes);
       if (rays.index[lane] == rays.end[lane]) continue;
       ray = RayOf(rays, lane);
       ++next_;

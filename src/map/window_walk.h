@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "map/lanes.h"
+#include "base/lanes.h"
 
 namespace clearway {
 

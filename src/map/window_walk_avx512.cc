@@ -8,7 +8,7 @@
 namespace clearway {
 namespace {
 
-constexpr int kLanes = 8;  // doubles in a register
+static_assert(kLanes == 8);  // doubles in a register
 
 // Eight rays under way, in registers. A lane without a ray stands still.
 struct Group {

@@ -29,8 +29,9 @@ class DirectionGrid {
   };
   Votes VotesOn(std::size_t place) const;
 
-  // Whether VotesOn's `fellows` can be more than 0: faster.
+  // Whether VotesOn's `fellows`, or its `others`, can be more than 0: faster.
   bool HasFellow(std::size_t place) const;
+  bool MayHaveOthers(std::size_t place) const;
 
   // At least VotesOn's `others` of a static point: faster.
   std::uint32_t ObjectPointsAbout(std::size_t place) const { return objects_about_[cells_[place]]; }

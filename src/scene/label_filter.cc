@@ -57,6 +57,7 @@ class PredictedObjects {
 // others.
 bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
   constexpr std::uint32_t kFewestFellows = 2;
+  if (!directions.MayHaveOthers(place)) return false;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
   return IsOutvoted(votes) || (votes.fellows < kFewestFellows && votes.others > 0);
 }
@@ -69,6 +70,7 @@ bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
   if (most_others == 0) return false;
   const bool is_likely = objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place);
   if (!is_likely && most_others < kFewestOthers) return false;
+  if (!directions.MayHaveOthers(place)) return false;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
   return IsOutvoted(votes) || (is_likely && votes.others > 0);
 }

@@ -53,35 +53,38 @@ const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_M) {
   return entry->second ? &*entry->second : nullptr;
 }
 
-const SurfaceCells::Sums* SurfaceCells::SumsIn(BlockKey block_key) {
-  const auto [entry, fresh] = begins_.try_emplace(block_key, -1);
-  if (fresh) {
-    const VoxelBlock* block = map_->blocks().Find(block_key);
-    if (block == nullptr || !block->occupied.Any()) return nullptr;
-    entry->second = static_cast<std::ptrdiff_t>(sums_.size());
-    sums_.resize(sums_.size() + (std::size_t{1} << 3 * shift_));
-    Sums* const of_block = &sums_[entry->second];
-    block->occupied.ForEach([&](int index) {
-      const int x = index & 7, y = index >> 3 & 7, z = index >> 6;
-      const int cell = x >> bits_ | y >> bits_ << shift_ | z >> bits_ << 2 * shift_;
-      // Occupied may be what is as likely free.
-      const double weight = std::max<double>(block->log_odds[index], 1);
-      of_block[cell].Add(weight, map_->grid().CenterOf(VoxelAt(block_key, index)));
-    });
-  }
-  return entry->second < 0 ? nullptr : &sums_[entry->second];
+std::ptrdiff_t SurfaceCells::BeginOf(BlockKey block_key) {
+  const auto [entry, fresh] = begins_.try_emplace(block_key, kNone);
+  if (!fresh) return entry->second;
+  const VoxelBlock* block = map_->blocks().Find(block_key);
+  if (block == nullptr || !block->occupied.Any()) return kNone;
+  entry->second = static_cast<std::ptrdiff_t>(sums_.size());
+  sums_.resize(sums_.size() + (std::size_t{1} << 3 * shift_));
+  Sums* const of_block = &sums_[entry->second];
+  block->occupied.ForEach([&](int index) {
+    const int x = index & 7, y = index >> 3 & 7, z = index >> 6;
+    const int cell = x >> bits_ | y >> bits_ << shift_ | z >> bits_ << 2 * shift_;
+    // Occupied may be what is as likely free.
+    const double weight = std::max<double>(block->log_odds[index], 1);
+    of_block[cell].Add(weight, map_->grid().CenterOf(VoxelAt(block_key, index)));
+  });
+  return entry->second;
 }
 
 std::optional<SurfaceCells::Cell> SurfaceCells::CellAround(BlockKey key) {
   constexpr double kFewest = 3;  // voxels that make a distribution
   const int across = (1 << shift_) - 1;
   Sums around;
+  BlockKey block;  // most often that of the cell before, too
+  std::ptrdiff_t begin = kNone;
   for (int i = 0; i < 27; ++i) {
     const BlockKey at{key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1};
-    const Sums* of_block = SumsIn({at.x >> shift_, at.y >> shift_, at.z >> shift_});
-    if (of_block == nullptr) continue;
+    const BlockKey of_cell{at.x >> shift_, at.y >> shift_, at.z >> shift_};
+    if (i == 0 || of_cell != block) begin = BeginOf(of_cell);
+    block = of_cell;
+    if (begin == kNone) continue;
     const int cell = (at.x & across) | (at.y & across) << shift_ | (at.z & across) << 2 * shift_;
-    if (of_block[cell].count > 0) around.Add(of_block[cell]);
+    if (sums_[begin + cell].count > 0) around.Add(sums_[begin + cell]);
   }
   if (around.count < kFewest) return std::nullopt;
   return CellOf(around);

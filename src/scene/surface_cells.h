@@ -48,8 +48,9 @@ class SurfaceCells {
     void Add(double of_weight, const Eigen::Vector3d& p);
     void Add(const Sums& other);
   };
-  // Those of the block's cells; null if nothing is occupied in it. Valid until the next call.
-  const Sums* SumsIn(BlockKey block);
+  // Where in sums_ those of the block's cells begin; kNone if nothing is occupied in it.
+  static constexpr std::ptrdiff_t kNone = -1;
+  std::ptrdiff_t BeginOf(BlockKey block);
   std::optional<Cell> CellAround(BlockKey key);
   Cell CellOf(const Sums& sums) const;
 
@@ -58,7 +59,7 @@ class SurfaceCells {
   double voxel_m_, per_m_;
   Eigen::Vector3d origin_;
   std::vector<Sums> sums_;                                   // block by block
-  absl::flat_hash_map<BlockKey, std::ptrdiff_t> begins_;     // in sums_; -1 for none
+  absl::flat_hash_map<BlockKey, std::ptrdiff_t> begins_;     // in sums_
   absl::flat_hash_map<BlockKey, std::optional<Cell>> seen_;  // those that somebody asked for
 };
 

@@ -26,15 +26,15 @@ BitWindow AllBut(VoxelKey left_out) {
 // The direction in the last lane, others in the rest.
 double DepthM(MarkedCones& dut, const Eigen::Vector3f& direction, const BitWindow& window) {
   LaneFloats lanes[3];
-  for (int lane = 0; lane < kRayLanes; ++lane) {
-    const float other = static_cast<float>(kRayLanes - 1 - lane);  // 0 in the last
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const float other = static_cast<float>(kLanes - 1 - lane);  // 0 in the last
     for (int axis = 0; axis < 3; ++axis) {
       lanes[axis][lane] = direction[axis] + (axis == 0 ? 10 : axis) * other;
     }
   }
   LaneDoubles depths_m;
   dut.FindDepths(lanes, window, depths_m);
-  return depths_m[kRayLanes - 1];
+  return depths_m[kLanes - 1];
 }
 
 TEST(MarkedCones, EndsBeforeTheVoxelThatIsNotMarked) {

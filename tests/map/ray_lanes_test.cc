@@ -11,11 +11,11 @@ namespace {
 
 using testing_support::Random;
 
-using Segments = std::array<RaySegment, kRayLanes>;
+using Segments = std::array<RaySegment, kLanes>;
 
 RayLanes Started(const VoxelGrid& grid, const Segments& segments) {
   RaySegments eight;
-  for (int lane = 0; lane < kRayLanes; ++lane) Put(segments[lane], lane, eight);
+  for (int lane = 0; lane < kLanes; ++lane) Put(segments[lane], lane, eight);
   RayLanes lanes;
   StartLanes(grid, eight, lanes);
   return lanes;
@@ -54,7 +54,7 @@ TEST(RayLanes, StartsAsOneRayDoes) {
     for (int round = 0; round < 500; ++round) {
       const Segments segments = RandomSegments(random);
       const RayLanes lanes = Started(grid, segments);
-      for (int lane = 0; lane < kRayLanes; ++lane) {
+      for (int lane = 0; lane < kLanes; ++lane) {
         if (segments[lane].origin == segments[lane].end) continue;  // no direction
         const RayStart one = StartRay(grid, segments[lane].origin, segments[lane].end);
         ASSERT_EQ(KeyIn(lanes.key, lane), one.key);
@@ -75,7 +75,7 @@ TEST(RayLanes, RaysTooShortForADirectionStandStill) {
   segments.fill({{0, 0, 0}, {-1e-30f, -1e-30f, 0}});
   segments[1] = {{0, 0, 0}, {0, 0, 0}};
   const RayLanes lanes = Skipped(Started(VoxelGrid(0.1), segments), LaneDoubles{} + 1.0);
-  for (int lane = 0; lane < kRayLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     EXPECT_EQ(KeyIn(lanes.key, lane), (VoxelKey{0, 0, 0}));
     for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(lanes.step[axis][lane], 0);
   }
@@ -107,7 +107,7 @@ RayStart WalkedTo(RayStart ray, double until_m) {
 
 void ExpectWalked(const VoxelGrid& grid, const Segments& segments, const LaneDoubles& until_m,
                   const RayLanes& skipped) {
-  for (int lane = 0; lane < kRayLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     if (segments[lane].origin == segments[lane].end) continue;
     const RayStart one =
         WalkedTo(StartRay(grid, segments[lane].origin, segments[lane].end), until_m[lane]);
@@ -125,7 +125,7 @@ TEST(RayLanes, SkipsToWhereAWalkWouldBe) {
     const Segments segments = RandomSegments(random);
     const RayLanes lanes = Started(grid, segments);
     LaneDoubles until_m;
-    for (int lane = 0; lane < kRayLanes; ++lane) {
+    for (int lane = 0; lane < kLanes; ++lane) {
       until_m[lane] = random.Uniform(-0.2, 1) * (lanes.length_m[lane] - 0.2);
     }
     ExpectWalked(grid, segments, until_m, Skipped(lanes, until_m, round % kBatch));
@@ -147,7 +147,7 @@ TEST(RayLanes, SkipsAlikeWhenAllGoFar) {
         ray = {origin, (middle + random.Vector(0.1)).cast<float>()};
       }
       batch[i] = Started(grid, segments[i]);
-      for (int lane = 0; lane < kRayLanes; ++lane) {
+      for (int lane = 0; lane < kLanes; ++lane) {
         until_m[i][lane] = random.Uniform(0.8, 1) * (batch[i].length_m[lane] - 0.2);
       }
     }

@@ -30,7 +30,7 @@ void Fill(const std::vector<RaySegment>& rays, RayRounds& dut) {
 std::vector<RaySegment> RaysOf(const RayRounds& dut, std::size_t round) {
   std::vector<RaySegment> rays;
   for (const RaySegments& eight : dut.round(round)) {
-    for (int lane = 0; lane < kRayLanes; ++lane) {
+    for (int lane = 0; lane < kLanes; ++lane) {
       const RaySegment ray = SegmentIn(eight, lane);
       if (ray.origin != ray.end) rays.push_back(ray);
     }
@@ -67,7 +67,7 @@ TEST(RayRounds, DealsEveryRayOnce) {
 // One of thirteen rays in a row, three that lie apart from it and each other, and the rest.
 TEST(RayRounds, TheFirstOnesLieApart) {
   Random random(2);
-  const std::vector<RaySegment> rays = RandomRays(10 * RayRounds::kInARow * kRayLanes, random);
+  const std::vector<RaySegment> rays = RandomRays(10 * RayRounds::kInARow * kLanes, random);
   RayRounds dut;
   Fill(rays, dut);
   std::map<Numbers, std::size_t> places;
@@ -96,7 +96,7 @@ TEST(RayRounds, BoxesAreAroundAllRays) {
       origins.extend(ray.origin);
       ends.extend(ray.end);
     }
-    if (count % (RayRounds::kInARow * kRayLanes) != 0) ends.extend(rays[count / 104 * 104].origin);
+    if (count % (RayRounds::kInARow * kLanes) != 0) ends.extend(rays[count / 104 * 104].origin);
     const RayRounds::Boxes boxes = dut.BoxesAround();
     EXPECT_EQ(boxes.origins.min(), origins.min());
     EXPECT_EQ(boxes.origins.max(), origins.max());

@@ -32,7 +32,7 @@ class WindowWalkTest : public testing::TestWithParam<Case> {
   }
   void Add(const Eigen::Vector3f& origin, const Eigen::Vector3f& end) {
     WalkRay(grid_, origin, end, [&](VoxelKey key) { expected_.insert(key); });
-    const int lane = count_++ % kRayLanes;
+    const int lane = count_++ % kLanes;
     if (lane == 0) segments_.push_back({});  // the other lanes go nowhere
     Put({origin, end}, lane, segments_.back());
   }

@@ -149,7 +149,7 @@ class BlockTree {
   static void VisitDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
 
   const Upper* FindRoot(BlockKey root_key) const;
-  const Lower* FindLower(BlockKey key) const;
+  static const Lower* LowerIn(const Upper* upper, BlockKey key);
   // leaves[i] is that of keys[i], null if there is none (with an occupied voxel).
   template <bool kOccupied>
   void FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const;

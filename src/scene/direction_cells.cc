@@ -1,0 +1,81 @@
+#include "scene/direction_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/lanes.h"
+#include "base/multiversion.h"
+
+namespace clearway {
+namespace {
+
+constexpr int kAcross = DirectionCells::kAcross, kRow = DirectionCells::kRow;
+constexpr float kLeast_m = 1e-30f;
+
+// Where a slope from the face's middle along an axis of it leads, in cells from -1 to kAcross.
+// LanePlaces does the same for eight, but not into the rim.
+int PlaceAlong(float slope) {
+  slope = std::min(std::max(slope, -1.2f), 1.2f);
+  // About 4 / pi times its arcus tangent.
+  const float angle = slope + 0.3476f * slope * (1 - std::abs(slope));
+  const int place = static_cast<int>((angle + 1) * (0.5f * kAcross) + 1) - 1;  // rounded down
+  return std::min(std::max(place, -1), kAcross);
+}
+
+inline void LanePlaces(const LaneFloats& any_slope, LaneInts& places) {
+  const LaneFloats above = any_slope < -1.2f ? LaneFloats{} - 1.2f : any_slope;
+  const LaneFloats slope = above > 1.2f ? LaneFloats{} + 1.2f : above;
+  const LaneFloats angle = slope + 0.3476f * slope * (1 - (slope < 0 ? -slope : slope));
+  places = __builtin_convertvector((angle + 1) * (0.5f * kAcross) + 1, LaneInts) - 1;
+  places = places < 0 ? LaneInts{} : places;
+  places = places > kAcross - 1 ? LaneInts{} + (kAcross - 1) : places;
+}
+
+// Of eight directions.
+inline void LaneCells(const LaneFloats (&d)[3], LaneInts& cells) {
+  const auto& [x, y, z] = d;
+  const LaneFloats across_x = x < 0 ? -x : x, across_y = y < 0 ? -y : y, across_z = z < 0 ? -z : z;
+  const LaneInts not_x = across_y > across_x;
+  const LaneInts on_z = across_z > (not_x ? across_y : across_x);
+  const LaneFloats main = on_z ? z : not_x ? y : x;
+  const LaneFloats along_u = on_z ? x : not_x ? z : y, along_v = on_z ? y : not_x ? x : z;
+  const LaneFloats across = main < 0 ? -main : main;
+  const LaneFloats along = across > kLeast_m ? across : LaneFloats{} + kLeast_m;
+  const LaneInts axis = on_z ? LaneInts{} + 2 : -not_x;
+  const LaneInts face = 2 * axis - LaneInts(main < 0);
+  LaneInts u, v;
+  LanePlaces(along_u / along, u);
+  LanePlaces(along_v / along, v);
+  cells = DirectionCells::kBefore + (face * kRow + v + 1) * kRow + u + 1;
+}
+
+CLEARWAY_MULTIVERSION void FindCells(const Eigen::Vector3f* points_W, std::size_t size,
+                                     const Eigen::Vector3f& from_W, std::uint32_t* cells) {
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, size - i);
+    LaneFloats direction[3];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const float* p = points_W[i + std::min(lane, count - 1)].data();
+      for (int axis = 0; axis < 3; ++axis) direction[axis][lane] = p[axis] - from_W[axis];
+    }
+    LaneInts found;
+    LaneCells(direction, found);
+    for (std::size_t lane = 0; lane < count; ++lane) cells[i + lane] = found[lane];
+  }
+}
+
+}  // namespace
+
+void DirectionCells::Find(std::span<const Eigen::Vector3f> points_W, const Eigen::Vector3f& from_W,
+                          std::uint32_t* cells) {
+  FindCells(points_W.data(), points_W.size(), from_W, cells);
+}
+
+std::uint32_t DirectionCells::InRim(int axis, bool negative, const Eigen::Vector3f& d) {
+  const float along = std::max(std::abs(d[axis]), kLeast_m);
+  const int u = PlaceAlong(d[(axis + 1) % 3] / along), v = PlaceAlong(d[(axis + 2) % 3] / along);
+  const int face = 2 * axis + static_cast<int>(negative);
+  return static_cast<std::uint32_t>(kBefore + (face * kRow + v + 1) * kRow + u + 1);
+}
+
+}  // namespace clearway
