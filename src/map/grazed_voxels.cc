@@ -27,12 +27,12 @@ std::vector<BitWindow::Block> MissedOccupied(const VoxelMap& map, const ScanUpda
   return missed;
 }
 
-constexpr std::size_t kTogether = 4096;  // rays
+constexpr std::size_t kRaysTogether = 4096;
 
-// Some rays of a range, without branches that a processor cannot foresee.
-struct Some {
-  std::array<std::uint32_t, kTogether> rays;
-  std::array<std::uint8_t, kTogether> axes;  // AxesAcross, where they end
+// Some of so many rays. Hardly a branch picks them: no processor could foresee which way it goes.
+struct PickedRays {
+  std::array<std::uint32_t, kRaysTogether> rays;
+  std::array<std::uint8_t, kRaysTogether> axes;  // AxesAcross, where they end
   std::size_t size = 0;
 };
 
@@ -44,53 +44,61 @@ const VoxelKey* LastVoxelBefore(const EndingRays& rays, std::size_t i) {
   return nullptr;
 }
 
-// Those that end, but with one origin, of those in a row in one voxel the first alone.
-void KeepEnding(const EndingRays& rays, std::size_t begin, std::size_t end, Some& kept) {
+// Those that end; with one origin, of those in a row in one voxel the first alone.
+void PickEnding(const EndingRays& rays, std::size_t begin, std::size_t end, PickedRays& picked) {
   const bool one_origin = rays.origins.size() == 1;
   const VoxelKey* last = LastVoxelBefore(rays, begin);
   VoxelKey last_voxel = last == nullptr ? VoxelKey{} : *last;
   bool is_first = !one_origin || last == nullptr;
-  kept.size = 0;
+  picked.size = 0;
   for (std::size_t i = begin; i < end; ++i) {
     if (rays.places[i] == EndingRays::kNotEnding) continue;
     const VoxelKey voxel = rays.voxels[i];
-    const bool is_other = ((voxel.x ^ last_voxel.x) | (voxel.y ^ last_voxel.y) | (voxel.z ^ last_voxel.z)) != 0;
-    kept.rays[kept.size] = static_cast<std::uint32_t>(i);
-    kept.size += is_first | is_other;
+    const bool is_other =
+        ((voxel.x ^ last_voxel.x) | (voxel.y ^ last_voxel.y) | (voxel.z ^ last_voxel.z)) != 0;
+    picked.rays[picked.size] = static_cast<std::uint32_t>(i);
+    picked.size += is_first | is_other;
     is_first = !one_origin;
     last_voxel = voxel;
   }
 }
 
 // Those that may run in a layer.
-void KeepInLayers(const EndingRays& rays, const SurfaceLayers& layers, Some& kept) {
+void KeepInLayers(const EndingRays& rays, const SurfaceLayers& layers, PickedRays& picked) {
   std::size_t size = 0;
-  for (std::size_t k = 0; k < kept.size; ++k) {
-    const std::uint32_t i = kept.rays[k];
+  for (std::size_t k = 0; k < picked.size; ++k) {
+    const std::uint32_t i = picked.rays[k];
     const unsigned axes = layers.AxesAcross(rays.places[i], rays.voxels[i]);
-    kept.rays[size] = i;
-    kept.axes[size] = static_cast<std::uint8_t>(axes);
+    picked.rays[size] = i;
+    picked.axes[size] = static_cast<std::uint8_t>(axes);
     size += axes != 0;
   }
-  kept.size = size;
+  picked.size = size;
 }
 
-// What part of a ray, given by its end and what leads from there back to its origin, lies in the
-// layer of its end voxel that is level along one of the axes. A little more, so that the voxel
-// where it ends is the next layer's.
-double PartInLayer(double resolution_m, VoxelKey voxel, unsigned axes, const Eigen::Vector3f& end,
-                   const Eigen::Vector3f& back) {
-  const std::int32_t index[3] = {voxel.x, voxel.y, voxel.z};
+// What part of a ray, from its end back to its origin, lies in the layer of its end voxel that is
+// level along one of the axes. A little more, so that the voxel where it ends is the next layer's.
+double PartInLayer(double resolution_m, VoxelKey end_voxel, unsigned axes, const RaySegment& ray) {
+  const std::int32_t voxel[3] = {end_voxel.x, end_voxel.y, end_voxel.z};
   const double beyond_m = 1e-4 * resolution_m;
   double part = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low_m = index[axis] * resolution_m, end_m = end[axis], back_m = back[axis];
+    const double low_m = voxel[axis] * resolution_m;
+    const double end_m = ray.end[axis], back_m = ray.origin[axis] - end_m;
     const double before_m = end_m - low_m, behind_m = low_m + resolution_m - end_m;
-    const double to_border_m = back_m < 0 ? before_m : behind_m;
-    const double in_layer = std::min((to_border_m + beyond_m) / std::abs(back_m), 1.0);
+    const double leaves_m = (back_m < 0 ? before_m : behind_m) + beyond_m;
+    const double in_layer = std::min(leaves_m / std::abs(back_m), 1.0);
     part = std::max(part, in_layer * static_cast<double>(axes >> axis & 1));
   }
   return part;
+}
+
+// The stretch of a ray, from its end back, along which it spares what is occupied.
+RaySegment StretchOf(const RaySegment& ray, double part_in_layer, float grazing_m) {
+  const Eigen::Vector3f back = ray.origin - ray.end;
+  const float part = std::min(grazing_m / back.norm(), static_cast<float>(part_in_layer));
+  const Eigen::Vector3f inside = ray.end + part * back;
+  return {ray.end, part < 1 ? inside : ray.origin};
 }
 
 }  // namespace
@@ -98,25 +106,21 @@ double PartInLayer(double resolution_m, VoxelKey voxel, unsigned axes, const Eig
 void GrazedVoxels::FindStretches(const VoxelGrid& grid, const SurfaceLayers& layers,
                                  const EndingRays& rays, double grazing_m, ThreadPool& pool) {
   const bool one_origin = rays.origins.size() == 1;
-  stretches_.resize((rays.ends.size() + kTogether - 1) / kTogether);
-  pool.ParallelChunks(rays.ends.size(), kTogether, [&](int, std::size_t begin, std::size_t end) {
-    Some kept;
-    KeepEnding(rays, begin, end, kept);
-    KeepInLayers(rays, layers, kept);
-    std::vector<Stretch>& found = stretches_[begin / kTogether];
-    found.resize(kept.size);
-    for (std::size_t k = 0; k < kept.size; ++k) {
-      const std::uint32_t i = kept.rays[k];
-      const Eigen::Vector3f& from = rays.ends[i];
-      const Eigen::Vector3f& origin = rays.origins[one_origin ? 0 : i];
-      const Eigen::Vector3f back = origin - from;
-      const auto in_layer = static_cast<float>(
-          PartInLayer(grid.resolution_m(), rays.voxels[i], kept.axes[k], from, back));
-      const float part = std::min(static_cast<float>(grazing_m) / back.norm(), in_layer);
-      const Eigen::Vector3f inside = from + part * back;
-      found[k] = {{from, part < 1 ? inside : origin}, rays.sectors[i]};
+  stretches_.resize((rays.ends.size() + kRaysTogether - 1) / kRaysTogether);
+  const auto find = [&](int, std::size_t begin, std::size_t end) {
+    PickedRays picked;
+    PickEnding(rays, begin, end, picked);
+    KeepInLayers(rays, layers, picked);
+    std::vector<Stretch>& found = stretches_[begin / kRaysTogether];
+    found.resize(picked.size);
+    for (std::size_t k = 0; k < picked.size; ++k) {
+      const std::uint32_t i = picked.rays[k];
+      const RaySegment ray{rays.origins[one_origin ? 0 : i], rays.ends[i]};
+      const double part = PartInLayer(grid.resolution_m(), rays.voxels[i], picked.axes[k], ray);
+      found[k] = {StretchOf(ray, part, static_cast<float>(grazing_m)), rays.sectors[i]};
     }
-  });
+  };
+  pool.ParallelChunks(rays.ends.size(), kRaysTogether, find);
 }
 
 void GrazedVoxels::Spare(const VoxelMap& map, const EndingRays& rays, double grazing_m,

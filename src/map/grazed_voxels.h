@@ -34,9 +34,8 @@ class GrazedVoxels {
              ScanUpdate& update);
 
  private:
-  // The part of a ray, from its end back, along which it spares what is occupied.
   struct Stretch {
-    RaySegment segment;
+    RaySegment segment;  // from the ray's end back, where it spares what is occupied
     std::uint8_t sector;
   };
   void FindStretches(const VoxelGrid& grid, const SurfaceLayers& layers, const EndingRays& rays,

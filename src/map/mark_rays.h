@@ -14,7 +14,8 @@ struct BlockRange {
 BlockRange BlocksAround(const VoxelGrid& grid, const RayRounds::Boxes& boxes);
 
 // Sets the bits of the voxels that WalkRay visits on the rays; the window must cover them.
-// `one_origin`: whether all rays begin at one point.
+// `one_origin`: whether all rays begin at one point, and have the same main axis and the same sign
+// along it: first steps are skipped of such rays alone.
 void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, BitWindow& window);
 
 }  // namespace clearway

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lanes.h"
 #include "clearway/map/voxel_key.h"
 #include "map/bit_window.h"
-#include "base/lanes.h"
 
 namespace clearway {
 

@@ -18,7 +18,6 @@ void PassedVoxels::Clear() {
   for (Sector& sector : sectors_) sector.rays.Clear();
 }
 
-
 std::vector<BlockMask> PassedVoxels::Among(std::span<const BitWindow::Block> candidates,
                                            const VoxelGrid& grid, ThreadPool& pool) {
   pool.ParallelChunks(sectors_.size(), 1,

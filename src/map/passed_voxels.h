@@ -17,7 +17,8 @@ namespace clearway {
 class PassedVoxels {
  public:
   void Clear();
-  // `sector`: any; to find out is cheaper if the rays of one lie near each other.
+  // `sector`: one of RaySector::kCount. Which one changes nothing but the time it takes: the least
+  // if the rays of one lie near each other.
   void Add(const RaySegment& ray, int sector) { sectors_[sector].rays.Add(ray); }
   // Of each candidate, no block twice, the voxels that a ray visits as WalkRay does. Once after the
   // rays were added. The result does not depend on the number of threads.

@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "base/lanes.h"
 #include "clearway/map/ray.h"
 #include "map/bit_window.h"
-#include "base/lanes.h"
 #include "map/window_walk.h"
 
 namespace clearway {

@@ -18,10 +18,9 @@ inline int MainAxis(const Eigen::Vector3f& direction) {
   return z > std::max(x, y) ? 2 : of_x_and_y;
 }
 
-// Rays in the grid's frame, all with the same main axis and the same sign along it, dealt to the
-// rounds in which they are walked: a few that lie apart, some more, then the rest, of which the
-// first steps are skipped where the rounds before have marked all there is to mark. Keeps its
-// memory when cleared.
+// Rays in the grid's frame, dealt to the rounds in which they are walked: a few that lie apart,
+// some more, then the rest, of which the first steps are skipped where the rounds before have
+// marked all there is to mark. Keeps its memory when cleared.
 class RayRounds {
  public:
   static constexpr std::size_t kCount = 3;

@@ -11,21 +11,22 @@ namespace {
 
 constexpr int kAcross = DirectionCells::kAcross, kRow = DirectionCells::kRow;
 constexpr float kLeast_m = 1e-30f;
+// Of a slope from the face's middle along an axis of it, 4 / pi times its arcus tangent, about.
+constexpr float kSteepest = 1.2f, kBend = 0.3476f;
 
-// Where a slope from the face's middle along an axis of it leads, in cells from -1 to kAcross.
-// LanePlaces does the same for eight, but not into the rim.
+// Where a slope leads, in cells from -1 to kAcross.
 int PlaceAlong(float slope) {
-  slope = std::min(std::max(slope, -1.2f), 1.2f);
-  // About 4 / pi times its arcus tangent.
-  const float angle = slope + 0.3476f * slope * (1 - std::abs(slope));
+  slope = std::min(std::max(slope, -kSteepest), kSteepest);
+  const float angle = slope + kBend * slope * (1 - std::abs(slope));
   const int place = static_cast<int>((angle + 1) * (0.5f * kAcross) + 1) - 1;  // rounded down
   return std::min(std::max(place, -1), kAcross);
 }
 
+// The same of eight, but not into the rim.
 inline void LanePlaces(const LaneFloats& any_slope, LaneInts& places) {
-  const LaneFloats above = any_slope < -1.2f ? LaneFloats{} - 1.2f : any_slope;
-  const LaneFloats slope = above > 1.2f ? LaneFloats{} + 1.2f : above;
-  const LaneFloats angle = slope + 0.3476f * slope * (1 - (slope < 0 ? -slope : slope));
+  const LaneFloats above = any_slope < -kSteepest ? LaneFloats{} - kSteepest : any_slope;
+  const LaneFloats slope = above > kSteepest ? LaneFloats{} + kSteepest : above;
+  const LaneFloats angle = slope + kBend * slope * (1 - (slope < 0 ? -slope : slope));
   places = __builtin_convertvector((angle + 1) * (0.5f * kAcross) + 1, LaneInts) - 1;
   places = places < 0 ? LaneInts{} : places;
   places = places > kAcross - 1 ? LaneInts{} + (kAcross - 1) : places;

@@ -21,7 +21,7 @@ struct Entry {
   bool is_copy;  // in the rim of a face that the point is not on
 };
 
-// The direction of each point of a cloud.
+// The cell that each point of a cloud is in on the face that it is on.
 std::vector<std::uint32_t> OwnCells(const LabelledCloud& cloud) {
   std::vector<std::uint32_t> own(cloud.ends_W.size());
   DirectionCells::Find(cloud.ends_W, cloud.origins_W[0], own.data());
@@ -56,7 +56,9 @@ std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud,
     if (objects_about[own[i]] == 0 || cloud.kinds[i] == RayEnd::kClear) continue;
     entries.push_back({own[i], i, false});
     DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0],
-                                  [&](std::uint32_t cell) { entries.push_back({cell, i, true}); });
+                                  [&](std::uint32_t cell) {
+                                    entries.push_back({cell, i, true});
+                                  });
   }
   return entries;
 }

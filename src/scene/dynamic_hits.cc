@@ -1,10 +1,11 @@
 #include "scene/dynamic_hits.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "absl/container/flat_hash_map.h"
 
@@ -60,7 +61,7 @@ bool AreAround(VoxelKey key, int fewest, MaskOf&& mask_of) {
   const VoxelKey min{key.x - kReach, key.y - kReach, key.z - kReach};
   const VoxelKey max{key.x + kReach, key.y + kReach, key.z + kReach};
   const BlockKey first = BlockOf(min), last = BlockOf(max);
-  const BlockKey own = BlockOf(key);  // often enough
+  const BlockKey own = BlockOf(key);  // first: most often that settles it
   int count = 0;
   const auto look_in = [&](BlockKey block) {
     if (const BlockMask* mask = mask_of(block)) count += CountIn(block, *mask, min, max);
@@ -80,51 +81,54 @@ bool AreAround(VoxelKey key, int fewest, MaskOf&& mask_of) {
 // By blocks.
 using Voxels = absl::flat_hash_map<BlockKey, BlockMask>;
 
-// Of a block's hits, those on voxels that are as free as the map can know them to be.
-BlockMask OnFree(const VoxelBlock& block, const BlockMask& on_seen_free, LogOdds freest) {
-  BlockMask on_free = on_seen_free;
-  on_seen_free.ForEach([&](int index) {
-    if (block.log_odds[index] != freest) on_free.Clear(index);
-  });
-  return on_free;
-}
-
-struct SeenFree {
-  const VoxelBlock* block;
+// A block's hits on voxels that are free.
+struct FreeHits {
   BlockKey key;
+  const VoxelBlock* block;
   BlockMask hits;
 };
 
-Voxels HitsOnFree(const VoxelMap& map, const ScanUpdate& update) {
+// Those in some of the update's blocks.
+std::vector<FreeHits> HitsOnFree(const VoxelMap& map, const ScanUpdate& update,
+                                 std::span<const std::size_t> places) {
+  std::vector<BlockKey> keys;
+  for (const std::size_t place : places) keys.push_back(update.keys()[place]);
+  std::vector<const VoxelBlock*> blocks(keys.size());
+  map.blocks().FindAll(keys, blocks.data());
+  std::vector<FreeHits> found;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (blocks[i] == nullptr) continue;
+    BlockMask hits = update.block(places[i]).hit;
+    hits &= blocks[i]->observed;
+    hits.Subtract(blocks[i]->occupied);
+    if (hits.Any()) found.push_back({keys[i], blocks[i], hits});
+  }
+  return found;
+}
+
+// The hits on voxels that are as free as the map can know them to be.
+Voxels HitsOnFreest(const VoxelMap& map, const ScanUpdate& update) {
   constexpr std::size_t kTogether = 128;  // blocks whose memory is waited for at once
-  std::vector<std::size_t> hit;
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
-    if (update.block(i).hit.Any()) hit.push_back(i);
+    if (update.block(i).hit.Any()) places.push_back(i);
   }
-  Voxels on_free;
-  std::array<BlockKey, kTogether> keys;
-  std::array<const VoxelBlock*, kTogether> blocks;
-  std::vector<SeenFree> seen_free;
-  for (std::size_t begin = 0; begin < hit.size(); begin += kTogether) {
-    const std::size_t count = std::min(kTogether, hit.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) keys[i] = update.keys()[hit[begin + i]];
-    map.blocks().FindAll(std::span(keys).first(count), blocks.data());
-    seen_free.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (blocks[i] == nullptr) continue;
-      BlockMask hits = update.block(hit[begin + i]).hit;
-      hits &= blocks[i]->observed;
-      hits.Subtract(blocks[i]->occupied);
-      if (!hits.Any()) continue;
-      hits.ForEach([&](int index) { __builtin_prefetch(&blocks[i]->log_odds[index]); });
-      seen_free.push_back({blocks[i], keys[i], hits});
+  Voxels freest;
+  for (std::size_t begin = 0; begin < places.size(); begin += kTogether) {
+    const std::size_t count = std::min(kTogether, places.size() - begin);
+    std::vector<FreeHits> found = HitsOnFree(map, update, std::span(places).subspan(begin, count));
+    for (const auto& [key, block, hits] : found) {
+      hits.ForEach([&, of = block](int i) { __builtin_prefetch(&of->log_odds[i]); });
     }
-    for (const auto& [block, key, hits] : seen_free) {
-      const BlockMask found = OnFree(*block, hits, map.model().clamp_min);
-      if (found.Any()) on_free.emplace(key, found);
+    for (auto& [key, block, hits] : found) {
+      const BlockMask free = hits;
+      free.ForEach([&, of = block, &kept = hits](int i) {
+        if (of->log_odds[i] != map.model().clamp_min) kept.Clear(i);
+      });
+      if (hits.Any()) freest.emplace(key, hits);
     }
   }
-  return on_free;
+  return freest;
 }
 
 bool IsBesideSurface(const VoxelMap& map, VoxelKey key) {
@@ -152,13 +156,13 @@ bool IsPassed(const ScanUpdate& update, VoxelKey key) {
 // The hits that dynamic space explains, in its order: what is in it already, and what may be new.
 std::vector<VoxelKey> DynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dynamic_W,
                                   const ScanUpdate& update) {
-  const Voxels on_free = HitsOnFree(lasting_W, update);
+  const Voxels on_freest = HitsOnFreest(lasting_W, update);
   std::vector<VoxelKey> hits;
-  for (const auto& [block, mask] : on_free) {
+  for (const auto& [block, mask] : on_freest) {
     mask.ForEach([&, key = block](int index) {
       const VoxelKey voxel = VoxelAt(key, index);
       if (dynamic_W.Find(voxel) != nullptr ||
-          (HasCompany(on_free, voxel) && !IsBesideSurface(lasting_W, voxel))) {
+          (HasCompany(on_freest, voxel) && !IsBesideSurface(lasting_W, voxel))) {
         hits.push_back(voxel);
       }
     });

@@ -55,11 +55,11 @@ const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_M) {
 
 std::ptrdiff_t SurfaceCells::BeginOf(BlockKey block) {
   Recent& recent = recent_[(block.x & 3) | (block.y & 3) << 2 | (block.z & 3) << 4];
-  if (recent.begin == kUnasked || recent.block != block) recent = {block, AddBlock(block)};
+  if (recent.begin == kUnasked || recent.block != block) recent = {block, FindOrAdd(block)};
   return recent.begin;
 }
 
-std::ptrdiff_t SurfaceCells::AddBlock(BlockKey block_key) {
+std::ptrdiff_t SurfaceCells::FindOrAdd(BlockKey block_key) {
   const auto [entry, fresh] = begins_.try_emplace(block_key, kNone);
   if (!fresh) return entry->second;
   const VoxelBlock* block = map_->blocks().Find(block_key);

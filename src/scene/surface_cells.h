@@ -51,7 +51,7 @@ class SurfaceCells {
   // Where in sums_ those of the block's cells begin; kNone if nothing is occupied in it.
   static constexpr std::ptrdiff_t kNone = -1;
   std::ptrdiff_t BeginOf(BlockKey block);
-  std::ptrdiff_t AddBlock(BlockKey block);
+  std::ptrdiff_t FindOrAdd(BlockKey block);  // what BeginOf does not remember
   std::optional<Cell> CellAround(BlockKey key);
   Cell CellOf(const Sums& sums) const;
 
@@ -59,7 +59,7 @@ class SurfaceCells {
   int bits_, shift_;  // of voxels to cells; of cells to blocks
   double voxel_m_, per_m_;
   Eigen::Vector3d origin_;
-  std::vector<Sums> sums_;  // block by block
+  std::vector<Sums> sums_;                                // block by block
   absl::flat_hash_map<BlockKey, std::ptrdiff_t> begins_;  // in sums_
   // Of those asked for last, by the lowest bits of their keys: cells near each other ask for the
   // same ones.

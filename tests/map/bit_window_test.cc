@@ -57,6 +57,36 @@ TEST(BitWindow, GivesWhatIsSetBlockByBlockAndIsThenClear) {
   }
 }
 
+TEST(BitWindow, ClearsAndTellsOfSomeVoxelsOfABlockAlone) {
+  const BlockKey first{-3, -1, 2}, last{6, 2, 4};
+  BitWindow dut;
+  dut.Cover(first, last);
+  Random random(2);
+  for (int round = 0; round < 50; ++round) {
+    BitWindow::Block block{{random.Integer(-3, 6), random.Integer(-1, 2), random.Integer(2, 4)},
+                           {}};
+    std::map<BlockKey, std::set<int>> expected;
+    BlockMask set;
+    for (int i = 0; i < kVoxelsPerBlock; ++i) {
+      if (random.Integer(0, 4) == 0) block.mask.Set(i);
+      if (random.Integer(0, 1) == 0) continue;
+      dut.Set(VoxelAt(block.key, i));
+      if (block.mask.Test(i)) {
+        set.Set(i);
+      } else {
+        expected[block.key].insert(i);
+      }
+    }
+    const VoxelKey beside = VoxelAt({block.key.x == 6 ? -3 : block.key.x + 1, 0, 3}, 77);
+    dut.Set(beside);
+    expected[BlockOf(beside)].insert(77);
+    EXPECT_EQ(dut.SetOf(block), set);
+    dut.Clear(block);
+    EXPECT_FALSE(dut.SetOf(block).Any());
+    EXPECT_EQ(TakeAll(dut), expected);
+  }
+}
+
 TEST(BitWindow, AllSetAsVoxelByVoxel) {
   BitWindow dut;
   dut.Cover({-2, -1, 0}, {9, 1, 1});

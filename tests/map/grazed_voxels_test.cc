@@ -110,7 +110,22 @@ TEST_F(GrazedGround, IsSparedByRaysFromEverywhere) {
   EXPECT_EQ(OnGround(MissesIn(UpdateBy(rays, map_, {.grazing_m = 4}))), 0);
 }
 
-// By definition, ray by ray.
+// Whatever lies between the two, and many rays are looked at together.
+TEST_F(GrazedGround, OfRaysInARowTheFirstAloneIsLookedAt) {
+  const Eigen::Vector3f origin(0.1f, 0.1f, 1.7f), above = origin + Eigen::Vector3f(0, 0, 3);
+  for (const std::size_t between : {1, 100, 4094, 4095, 4096, 9000}) {
+    Rays rays{{{19.9f, 3.01f, 0.1f}}, {origin}, {RayEnd::kHit}};
+    rays.ends.resize(1 + between, above);
+    rays.kinds.resize(1 + between, RayEnd::kClear);
+    rays.ends.push_back({19.9f, 3.19f, 0.1f});
+    rays.kinds.push_back(RayEnd::kHit);
+    EXPECT_GT(OnGround(MissesIn(UpdateBy(rays, map_, {.grazing_m = 4}, 2))), 0) << between;
+    rays.kinds[between] = RayEnd::kHit;  // no longer in a row
+    EXPECT_EQ(OnGround(MissesIn(UpdateBy(rays, map_, {.grazing_m = 4}, 2))), 0) << between;
+  }
+}
+
+// By definition, ray by ray; more of them than are looked at together.
 TEST(GrazedVoxels, OfRandomRaysAndMaps) {
   Random random(5);
   VoxelMap map(0.1);
@@ -119,7 +134,7 @@ TEST(GrazedVoxels, OfRandomRaysAndMaps) {
   }
   Rays rays;
   rays.origins = {{0.03f, 0.02f, -0.01f}};
-  for (int i = 0; i < 3'000; ++i) {
+  for (int i = 0; i < 5'000; ++i) {
     rays.ends.push_back(random.Vector(3).cast<float>());
     rays.kinds.push_back(static_cast<RayEnd>(i % 3));
     if (i % 4 != 0) continue;  // else one beside it, which may end in the same voxel
@@ -157,7 +172,7 @@ TEST(GrazedVoxels, OfRandomRaysAndMaps) {
             });
   }
   EXPECT_LT(expected.size(), all - 100);
-  EXPECT_GT(in_a_row, 50);
+  EXPECT_GT(in_a_row, 80);
   for (const int threads : {1, 3}) {
     EXPECT_EQ(MissesIn(UpdateBy(rays, map, options, threads)), expected);
   }

@@ -64,5 +64,33 @@ TEST(DirectionGrid, NeighboursAreWithinAboutADegree) {
   }
 }
 
+// Two objects of which one stands before the other, and both before a wall. Also so dense that some
+// points stand for all.
+class MayHaveOthers : public testing::TestWithParam<int> {};
+TEST_P(MayHaveOthers, IsTrueWhereOthersVote) {
+  Random random(7);
+  std::vector<Eigen::Vector3d> ends_W;
+  for (int i = 0; i < GetParam(); ++i) {
+    const Eigen::Vector3d d = (Eigen::Vector3d(1, 1, 0.2) + random.Vector(0.1)).normalized();
+    ends_W.push_back(random.Uniform(8, 14) * d);
+  }
+  LabelledCloud cloud = CloudOf(ends_W);
+  for (std::size_t i = 0; i < ends_W.size(); ++i) {
+    cloud.labels[i] = ends_W[i].norm() < 10 ? 1 : ends_W[i].norm() < 12 ? 2 : kStaticLabel;
+    if (cloud.labels[i] == kStaticLabel) cloud.kinds[i] = RayEnd::kHit;
+  }
+  const DirectionGrid dut(cloud);
+  std::size_t told = 0, asked = 0;
+  for (std::size_t place = 0; place < dut.size(); ++place) {
+    if (dut.IsCopy(place)) continue;
+    ++asked;
+    told += dut.MayHaveOthers(place);
+    EXPECT_TRUE(dut.MayHaveOthers(place) || dut.VotesOn(place).others == 0);
+  }
+  EXPECT_GT(told, asked / 10);
+  EXPECT_LT(told, asked * 3 / 4);
+}
+INSTANTIATE_TEST_SUITE_P(DirectionGrid, MayHaveOthers, testing::Values(600, 20'000));
+
 }  // namespace
 }  // namespace clearway

@@ -37,9 +37,9 @@ struct FrameReport {
   std::size_t points_doubted = 0;
   // In the scene after the frame (SceneParams::dynamic_life).
   std::size_t voxels_dynamic = 0;
-  // Where the sensor is in the scene's world: as the frame says, unless its pose was mended
-  // (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is where
-  // the source's world lies in the scene's. Always there but from an older server.
+  // Where the sensor is in the scene's world, once applied: as the frame says, unless its pose was
+  // mended (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is
+  // where the source's world lies in the scene's. An older server does not tell.
   std::optional<Pose> T_W_S = {};
 };
 
