@@ -1,5 +1,6 @@
 // clearway evaluate: what a scene made of its frames and foresaw, against the truth.
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -118,7 +119,15 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   return found;
 }
 
+// Before an evaluation, which may take minutes.
+absl::Status CheckFolderOf(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder)) return absl::OkStatus();
+  return absl::NotFoundError("--html: no such folder: " + folder.string());
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  if (auto status = CheckFolderOf(flags.html); !status.ok()) return status;
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
   const bool mends = flags.sensor_error_m > 0 || flags.sensor_error_deg > 0;

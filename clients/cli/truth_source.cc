@@ -1,5 +1,6 @@
 #include "cli/truth_source.h"
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -40,6 +41,7 @@ absl::StatusOr<TrueSource> OpenTrueSource(const std::string& spec, const SourceF
     }
     return OfFolder(*std::move(folder));
   }
+  if (!std::filesystem::exists(spec)) return absl::NotFoundError(spec + ": no such file");
   return absl::InvalidArgumentError(absl::StrCat(
       spec,
       ": does not tell what really happened; sim:NAME and folders of scans with boxes or poses of "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "scene/direction_cells.h"
@@ -28,32 +27,28 @@ std::vector<std::uint32_t> OwnCells(const LabelledCloud& cloud) {
   return own;
 }
 
-// Of each cell, the points of objects within a cell of it.
-std::vector<std::uint16_t> CountObjectPoints(const LabelledCloud& cloud,
-                                             const std::vector<std::uint32_t>& own) {
-  std::vector<std::uint16_t> counts(DirectionCells::kCount);
-  const auto count = [&](std::uint32_t about) {
-    for (const std::uint32_t first : RowsAbout(about)) {
-      for (std::uint32_t cell = first; cell < first + 3; ++cell) {
-        counts[cell] += counts[cell] < std::numeric_limits<std::uint16_t>::max();
-      }
-    }
+// Whether there is a point of an object within a cell of each cell.
+std::vector<char> CellsNearObjects(const LabelledCloud& cloud,
+                                   const std::vector<std::uint32_t>& own) {
+  std::vector<char> is_near(DirectionCells::kCount);
+  const auto mark = [&](std::uint32_t about) {
+    for (const std::uint32_t first : RowsAbout(about)) std::fill_n(&is_near[first], 3, 1);
   };
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (cloud.kinds[i] != RayEnd::kBlock) continue;
-    count(own[i]);
-    DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0], count);
+    mark(own[i]);
+    DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0], mark);
   }
-  return counts;
+  return is_near;
 }
 
 // The points whose own cell has a point of an object within a cell of it.
-std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud,
-                                      const std::vector<std::uint32_t>& own,
-                                      const std::vector<std::uint16_t>& objects_about) {
+std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud) {
+  const std::vector<std::uint32_t> own = OwnCells(cloud);
+  const std::vector<char> is_near = CellsNearObjects(cloud, own);
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < own.size(); ++i) {
-    if (objects_about[own[i]] == 0 || cloud.kinds[i] == RayEnd::kClear) continue;
+    if (!is_near[own[i]] || cloud.kinds[i] == RayEnd::kClear) continue;
     entries.push_back({own[i], i, false});
     DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0],
                                   [&](std::uint32_t cell) {
@@ -72,9 +67,7 @@ std::size_t StepOver(std::size_t points) {
 }  // namespace
 
 DirectionGrid::DirectionGrid(const LabelledCloud& cloud) : begin_(DirectionCells::kCount + 1) {
-  const std::vector<std::uint32_t> own = OwnCells(cloud);
-  objects_about_ = CountObjectPoints(cloud, own);
-  const std::vector<Entry> entries = EntriesNearObjects(cloud, own, objects_about_);
+  const std::vector<Entry> entries = EntriesNearObjects(cloud);
   for (const Entry& entry : entries) ++begin_[entry.cell];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<Entry> sorted(entries.size());

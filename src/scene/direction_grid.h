@@ -33,12 +33,8 @@ class DirectionGrid {
   bool HasFellow(std::size_t place) const;
   bool MayHaveOthers(std::size_t place) const;
 
-  // At least VotesOn's `others` of a static point: faster.
-  std::uint32_t ObjectPointsAbout(std::size_t place) const { return objects_about_[cells_[place]]; }
-
  private:
-  std::vector<std::uint32_t> begin_;          // of a cell's points; one more at the end
-  std::vector<std::uint16_t> objects_about_;  // of a cell: points of objects within a cell of it
+  std::vector<std::uint32_t> begin_;  // of a cell's points; one more at the end
 
   // By place.
   std::vector<std::uint32_t> indices_, cells_;

@@ -62,17 +62,14 @@ bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
   return IsOutvoted(votes) || (votes.fellows < kFewestFellows && votes.others > 0);
 }
 
-// Whether a static point is rather an object's. Static ones are many, and far from each other at a
-// distance, so that it takes an object's point nearby.
+// Whether a static point is rather an object's.
 bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
                        const DirectionGrid& directions, const PredictedObjects& objects) {
-  const std::uint32_t most_others = directions.ObjectPointsAbout(place);
-  if (most_others == 0) return false;
-  const bool is_likely = objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place);
-  if (!is_likely && most_others < kFewestOthers) return false;
   if (!directions.MayHaveOthers(place)) return false;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
-  return IsOutvoted(votes) || (is_likely && votes.others > 0);
+  if (IsOutvoted(votes)) return true;
+  // One alone is enough where an object is likely.
+  return votes.others > 0 && (objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place));
 }
 
 // How many points of an object lie in each cube of a coarse grid.

@@ -174,6 +174,12 @@ TEST(CommandLine, EvaluatesMapsAgainstTheSimulatorsTruth) {
     EXPECT_THAT(text.out, HasSubstr(told));
   }
   EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
+  const Finished nowhere = Clearway({"evaluate", "no/drive"});
+  EXPECT_NE(nowhere.exit_code, 0);
+  EXPECT_NE(nowhere.err.find("no/drive: no such file"), std::string::npos) << nowhere.err;
+  const Finished page = Clearway({"evaluate", "sim:small", "--html", "no/page.html"});
+  EXPECT_NE(page.exit_code, 0);
+  EXPECT_NE(page.err.find("--html: no such folder: no"), std::string::npos) << page.err;
 }
 
 // Of the drift of the simulated SLAM hardly anything is left.
