@@ -123,7 +123,7 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
 absl::Status CheckFolderOf(const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (folder.empty() || std::filesystem::is_directory(folder)) return absl::OkStatus();
-  return absl::NotFoundError("--html: no such folder: " + folder.string());
+  return absl::NotFoundError("--html: " + file + ": there is no such folder");
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
