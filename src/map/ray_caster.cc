@@ -64,22 +64,25 @@ struct RayCaster::Impl {
   RaySectors sectors;
   GrazedVoxels grazed;
 
-  void MarkFree(const VoxelGrid& grid, ScanUpdate& update);
+  // False, and nothing is marked, if it would be too much.
+  bool MarkFree(const VoxelGrid& grid, ScanUpdate& update);
   void MarkEnds(const RayCloud& cloud, ScanUpdate& update);
 };
 
-void RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
-  const RaySectors::Marked marked = sectors.Mark(grid, pool);
+bool RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
+  const std::optional<RaySectors::Marked> marked = sectors.Mark(grid, kMaxScanBlocks, pool);
+  if (!marked) return false;
   std::size_t count = 0;
-  for (const auto& part : marked) count += part.size();
+  for (const auto& part : *marked) count += part.size();
   update.Reserve(count);
-  for (const auto& part : marked) {
+  for (const auto& part : *marked) {
     for (std::size_t i = 0; i < part.size(); ++i) {
       constexpr std::size_t kAhead = 8;
       if (i + kAhead < part.size()) update.Prefetch(part[i + kAhead].key);
       update.MarkFree(part[i].key, part[i].mask);
     }
   }
+  return true;
 }
 
 void RayCaster::Impl::MarkEnds(const RayCloud& cloud, ScanUpdate& update) {
@@ -100,8 +103,8 @@ RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
-ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
-                           const RayOptions& options) {
+std::optional<ScanUpdate> RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
+                                          const RayOptions& options) {
   ScanUpdate update;
   if (cloud.ends.empty()) return update;
   PreparedRays& rays = impl_->rays;
@@ -111,17 +114,18 @@ ScanUpdate RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
   ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
     impl_->sectors.Add({OriginOf(cloud, i), rays.ends[i]}, rays.sectors[i]);
   });
-  impl_->MarkFree(grid, update);
+  if (!impl_->MarkFree(grid, update)) return std::nullopt;
   impl_->MarkEnds(cloud, update);
   return update;
 }
 
-ScanUpdate RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud, const RayOptions& options) {
-  ScanUpdate update = Cast(map.grid(), cloud, options);
-  if (options.grazing_m == 0 || cloud.ends.empty()) return update;
+std::optional<ScanUpdate> RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud,
+                                          const RayOptions& options) {
+  std::optional<ScanUpdate> update = Cast(map.grid(), cloud, options);
+  if (!update || options.grazing_m == 0 || cloud.ends.empty()) return update;
   const auto& [keys, ends, within_range, sectors, places] = impl_->rays;
   impl_->grazed.Spare(map, {cloud.origins, ends, keys, places, sectors}, options.grazing_m,
-                      impl_->pool, update);
+                      impl_->pool, *update);
   return update;
 }
 

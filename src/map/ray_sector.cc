@@ -10,27 +10,38 @@ void RaySector::Clear() {
   blocks_.clear();
 }
 
-const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid) {
-  if (size() == 0) return blocks_;
+const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid,
+                                                     std::atomic<std::int64_t>& left) {
+  const std::int64_t most = left;
+  if (size() == 0 || most < 0) return blocks_;
   rays_.Finish();
   const RayRounds::Boxes boxes = rays_.BoxesAround();
   const auto [first, last] = BlocksAround(grid, boxes);
-  if (!BitWindow::Fits(first, last)) {
-    MarkSparsely(grid);
-    return blocks_;
+  if (BitWindow::Fits(first, last)) {
+    MarkInWindow(grid, boxes, first, last);
+  } else {
+    MarkSparsely(grid, most);
   }
+  left -= static_cast<std::int64_t>(blocks_.size());
+  return blocks_;
+}
+
+void RaySector::MarkInWindow(const VoxelGrid& grid, const RayRounds::Boxes& boxes, BlockKey first,
+                             BlockKey last) {
   window_.Cover(first, last);
   const bool one_origin = boxes.origins.min() == boxes.origins.max();
   MarkRays(grid, rays_, one_origin, window_);
   for (std::size_t row = 0; row < window_.rows(); ++row) window_.TakeRow(row, blocks_);
-  return blocks_;
 }
 
-// Without a window, which would be too large.
-void RaySector::MarkSparsely(const VoxelGrid& grid) {
+void RaySector::MarkSparsely(const VoxelGrid& grid, std::int64_t most) {
   ScanUpdate update;
+  const auto too_many = [&] { return static_cast<std::int64_t>(update.keys().size()) > most; };
+  const auto mark = [&](VoxelKey key) {
+    if (!too_many()) update.MarkFree(key);
+  };
   rays_.ForEach([&](const RaySegment& ray) {
-    WalkRay(grid, ray.origin, ray.end, [&](VoxelKey key) { update.MarkFree(key); });
+    if (!too_many()) WalkRay(grid, ray.origin, ray.end, mark);
   });
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
     blocks_.push_back({update.keys()[i], update.block(i).free});

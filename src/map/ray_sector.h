@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
+#include <cstdint>
 #include <vector>
 
 #include "map/bit_window.h"
@@ -29,10 +31,15 @@ class RaySector {
   std::size_t size() const { return rays_.size(); }
 
   // Walks the rays: the voxels that WalkRay visits, by blocks, each block once. Valid until Clear.
-  const std::vector<BitWindow::Block>& Mark(const VoxelGrid& grid);
+  // Takes the blocks from `left`, which other sectors take from at the same time; below 0 there
+  // were too many, and some may be missing.
+  const std::vector<BitWindow::Block>& Mark(const VoxelGrid& grid, std::atomic<std::int64_t>& left);
 
  private:
-  void MarkSparsely(const VoxelGrid& grid);
+  void MarkInWindow(const VoxelGrid& grid, const RayRounds::Boxes& boxes, BlockKey first,
+                    BlockKey last);
+  // Without a window, which would be too large. Stops after `most` blocks and one.
+  void MarkSparsely(const VoxelGrid& grid, std::int64_t most);
 
   RayRounds rays_;
   BitWindow window_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "clearway/base/thread_pool.h"
@@ -17,9 +18,10 @@ class RaySectors {
   void Add(const RaySegment& ray, int sector) { sectors_[sector].Add(ray); }
 
   // Walks the rays, each sector by one thread: the voxels that WalkRay visits, by blocks. A block
-  // is in several sectors' parts where their rays meet. Valid until Clear.
+  // is in several sectors' parts where their rays meet. Valid until Clear. None if these parts have
+  // more than `most_blocks`.
   using Marked = std::array<std::span<const BitWindow::Block>, RaySector::kCount>;
-  Marked Mark(const VoxelGrid& grid, ThreadPool& pool);
+  std::optional<Marked> Mark(const VoxelGrid& grid, std::size_t most_blocks, ThreadPool& pool);
 
  private:
   std::array<RaySector, RaySector::kCount> sectors_;

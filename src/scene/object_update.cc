@@ -197,8 +197,9 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
   ScanUpdate update;
   if (params.clear_objects_by_rays) {
     const ClippedRays rays = RaysNear(object, cloud, points, params);
-    update =
-        RayCaster(pool).Cast(map_O.grid(), {rays.ends_O, rays.kinds, rays.origins_O}, RayOptions{});
+    const RayCloud cloud_O{rays.ends_O, rays.kinds, rays.origins_O};
+    // Rays that are too many clear nothing: only an object of some kilometres has them.
+    update = RayCaster(pool).Cast(map_O.grid(), cloud_O, {}).value_or(ScanUpdate());
   }
   for (std::uint32_t i : points) {
     const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();

@@ -102,9 +102,10 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   ClueMap clues = CluesOf(frame, cloud);
   ObjectMap objects =
       Continuing(scene_.objects, frame.stamp, scene_.params, clues, static_map_W, report);
-  DynamicSpace dynamic_W = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
+  auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
+  if (!cast.ok()) return cast.status();
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
-  dynamic_W = StillIn(static_map_W, dynamic_W);
+  DynamicSpace dynamic_W = StillIn(static_map_W, *cast);
   report.voxels_dynamic = dynamic_W.voxels().size();
   UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   if (scene_.params.reidentify) {
@@ -121,16 +122,21 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   return report;
 }
 
-DynamicSpace SceneBuilder::CastIntoStatic(const LabelledCloud& cloud, Time stamp,
-                                          VoxelMap& static_map_W) {
+absl::StatusOr<DynamicSpace> SceneBuilder::CastIntoStatic(const LabelledCloud& cloud, Time stamp,
+                                                          VoxelMap& static_map_W) {
   const SceneParams& params = scene_.params;
-  ScanUpdate update = caster_.Cast(static_map_W, cloud.Rays(), params.rays);
-  if (params.dynamic_life == Duration::zero()) {
-    static_map_W.Update(update, *pool_);
-    return {};
+  std::optional<ScanUpdate> update = caster_.Cast(static_map_W, cloud.Rays(), params.rays);
+  if (!update) {
+    return absl::ResourceExhaustedError(absl::StrCat(
+        "points_m: the rays pass through more than ", kMaxScanBlocks, " blocks of ", kBlockSize,
+        " voxels cubed, which is the limit; give the scene a max_range_m, or larger voxels"));
   }
-  DynamicChange change = TakeDynamicHits(static_map_W, scene_.dynamic_W, stamp, params, update);
-  static_map_W.Update(update, *pool_);
+  if (params.dynamic_life == Duration::zero()) {
+    static_map_W.Update(*update, *pool_);
+    return DynamicSpace();
+  }
+  DynamicChange change = TakeDynamicHits(static_map_W, scene_.dynamic_W, stamp, params, *update);
+  static_map_W.Update(*update, *pool_);
   return PutDynamic(std::move(change), static_map_W);
 }
 

@@ -31,7 +31,7 @@ struct Rays {
 ScanUpdate UpdateBy(const Rays& rays, const VoxelMap& map, const RayOptions& options,
                     int threads = 1) {
   ThreadPool pool(threads);
-  return RayCaster(pool).Cast(map, {rays.ends, rays.kinds, rays.origins}, options);
+  return RayCaster(pool).Cast(map, {rays.ends, rays.kinds, rays.origins}, options).value();
 }
 
 // Ground in the middle of the layer z = 0 of voxels of 0.2 m, seen all over; and a wall of 1 m on

@@ -33,7 +33,7 @@ void ExpectWalkOfEach(const std::vector<Eigen::Vector3f>& origins,
   const std::vector<RayEnd> kinds(ends.size(), RayEnd::kClear);
   for (const int threads : {1, 3}) {
     ThreadPool pool(threads);
-    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, {ends, kinds, origins}, {})), expected);
+    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, {ends, kinds, origins}, {}).value()), expected);
   }
 }
 
@@ -60,6 +60,51 @@ TEST(RayCaster, FromAnOriginForEach) {
 TEST(RayCaster, FarRays) {
   Random random(3);
   ExpectWalkOfEach({{0, 0, 0}}, Points(250, 3'000, random), 1);
+}
+
+// A few rays across all of a fine grid would fill the memory.
+TEST(RayCaster, RaysThroughTooManyBlocks) {
+  Random random(4);
+  const VoxelGrid grid(0.1);
+  const Eigen::Vector3f origin(0.3f, 0.2f, -0.1f);
+  const auto near = Points(500, 5, random), far = Points(20, 90'000, random);
+  const std::vector<RayEnd> kinds(near.size(), RayEnd::kClear);
+  for (const int threads : {1, 3}) {
+    ThreadPool pool(threads);
+    RayCaster dut(pool);
+    const auto cast = [&](const std::vector<Eigen::Vector3f>& ends) {
+      return dut.Cast(grid, {ends, std::span(kinds).first(ends.size()), {&origin, 1}}, {});
+    };
+    const auto before = cast(near);
+    EXPECT_FALSE(cast(far));
+    EXPECT_EQ(FreeIn(*cast(near)), FreeIn(*before));  // nothing is left of what was refused
+  }
+}
+
+// Each sector has few enough, all of them have too many.
+TEST(RayCaster, SectorsTogetherPassThroughTooManyBlocks) {
+  const VoxelGrid grid(0.1);
+  const Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+  std::vector<Eigen::Vector3f> ends;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float end : {-90'000.0f, 90'000.0f}) ends.push_back(end * Eigen::Vector3f::Unit(axis));
+  }
+  const std::vector<RayEnd> kinds(2 * ends.size(), RayEnd::kClear);
+  for (const int threads : {1, 3}) {
+    ThreadPool pool(threads);
+    RayCaster dut(pool);
+    const auto cast = [&] {
+      return dut.Cast(grid, {ends, std::span(kinds).first(ends.size()), {&origin, 1}}, {});
+    };
+    ASSERT_EQ(ends.size(), 6u);
+    const auto six = cast();  // of 112,500 blocks each
+    ASSERT_TRUE(six);
+    EXPECT_NEAR(static_cast<double>(six->keys().size()), 6 * 112'500, 20);
+    EXPECT_LT(six->keys().size(), kMaxScanBlocks);
+    for (int i = 0; i < 6; ++i) ends.push_back(ends[i] + Eigen::Vector3f::Constant(100));
+    EXPECT_FALSE(cast());
+    ends.resize(6);
+  }
 }
 
 }  // namespace

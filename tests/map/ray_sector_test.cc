@@ -52,6 +52,14 @@ void Fill(const std::vector<RaySegment>& rays, RaySector& dut) {
   for (const RaySegment& ray : rays) dut.Add(ray);
 }
 
+// Of rays that are few enough.
+const std::vector<BitWindow::Block>& Mark(RaySector& dut) {
+  std::atomic<std::int64_t> left = 1 << 20;
+  const auto& blocks = dut.Mark(kGrid, left);
+  EXPECT_EQ(left, (1 << 20) - static_cast<std::int64_t>(blocks.size()));
+  return blocks;
+}
+
 TEST(RaySector, TwelveSectorsByTheMainAxisAndTwoSigns) {
   std::set<int> seen;
   Random random(1);
@@ -74,7 +82,7 @@ TEST(RaySector, MarksWhatWalksVisitCloudAfterCloud) {
     const std::vector<RaySegment> rays = RaysAhead(count, 8, random);
     Fill(rays, dut);
     EXPECT_EQ(dut.size(), count);
-    EXPECT_EQ(VoxelsOf(dut.Mark(kGrid)), Walked(rays));
+    EXPECT_EQ(VoxelsOf(Mark(dut)), Walked(rays));
   }
 }
 
@@ -90,14 +98,36 @@ TEST(RaySector, MarksRaysOfAnyLength) {
   ASSERT_FALSE(BitWindow::Fits(block_of(box.min()), block_of(box.max())));
   RaySector dut;
   Fill(rays, dut);
-  EXPECT_EQ(VoxelsOf(dut.Mark(kGrid)), Walked(rays));
+  EXPECT_EQ(VoxelsOf(Mark(dut)), Walked(rays));
+}
+
+// With a window and without.
+TEST(RaySector, TakesNoMoreBlocksThanAreLeftAndOne) {
+  Random random(4);
+  RaySector dut;
+  for (const float length_m : {8.0f, 3000.0f}) {
+    const std::vector<RaySegment> rays = RaysAhead(5, length_m, random);
+    Fill(rays, dut);
+    const auto needed = static_cast<std::int64_t>(Mark(dut).size());
+    for (const std::int64_t spare : {0, -1}) {
+      Fill(rays, dut);
+      std::atomic<std::int64_t> left = needed + spare;
+      EXPECT_EQ(dut.Mark(kGrid, left).size(), static_cast<std::size_t>(needed));
+      EXPECT_EQ(left, spare);
+    }
+    Fill(rays, dut);
+    std::atomic<std::int64_t> none_left = -1;
+    EXPECT_TRUE(dut.Mark(kGrid, none_left).empty());
+    Fill(rays, dut);
+    EXPECT_EQ(VoxelsOf(Mark(dut)), Walked(rays));
+  }
 }
 
 TEST(RaySector, RaysThatGoNowhereAreNoRays) {
   RaySector dut;
   dut.Add({{1, 2, 3}, {1, 2, 3}});
   EXPECT_EQ(dut.size(), 0u);
-  EXPECT_TRUE(dut.Mark(kGrid).empty());
+  EXPECT_TRUE(Mark(dut).empty());
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Marks Cast(std::vector<Eigen::Vector3f> ends, std::vector<RayEnd> kinds,
   ThreadPool pool(1);
   const Eigen::Vector3f origin(0.5f, 0.5f, 0.5f);
   const ScanUpdate update =
-      RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, {&origin, 1}}, options);
+      RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, {&origin, 1}}, options).value();
   Marks marks;
   for (BlockKey key : update.keys()) {
     const auto& block = *update.Find(key);
@@ -88,7 +88,7 @@ TEST(CastRays, OneOriginPerPoint) {
   const std::vector<Eigen::Vector3f> ends{{2.5f, 0.5f, 0.5f}, {2.5f, 9.5f, 0.5f}};
   const std::vector<Eigen::Vector3f> origins{{0.5f, 0.5f, 0.5f}, {0.5f, 9.5f, 0.5f}};
   const std::vector<RayEnd> kinds(2, RayEnd::kHit);
-  const ScanUpdate update = RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, origins}, {});
+  const ScanUpdate update = RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, origins}, {}).value();
   EXPECT_EQ(update.Find({0, 0, 0})->free.Count(), 2);
   EXPECT_EQ(update.Find({0, 1, 0})->free.Count(), 2);
 }

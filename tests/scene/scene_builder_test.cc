@@ -57,6 +57,27 @@ TEST_F(SceneBuilderTest, APublishedVersionNeverChanges) {
   EXPECT_NE(dut.Publish()->Hash(), hash);
 }
 
+TEST_F(SceneBuilderTest, RaysThroughTooManyBlocksAreRefusedAndChangeNothing) {
+  SceneBuilder dut = Builder();
+  Frame near = FrameAt(1);
+  AddPoint(near, kStaticLabel, {3, 0, 0});
+  ASSERT_TRUE(dut.Apply(near).ok());
+  const std::string hash = dut.Publish()->Hash();
+
+  Frame far = FrameAt(2);
+  for (int i = 0; i < 12; ++i) AddPoint(far, kStaticLabel, {90'000, 1'000.0 * i, 500.0 * i});
+  const absl::Status refused = dut.Apply(far).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(refused.message(), testing::HasSubstr("points_m"));
+  EXPECT_THAT(refused.message(), testing::HasSubstr("1048576"));
+  EXPECT_EQ(dut.Publish()->Hash(), hash);
+
+  SceneParams params;
+  params.rays.max_range_m = 100;
+  SceneBuilder limited = Builder(params);
+  EXPECT_TRUE(limited.Apply(far).ok());
+}
+
 TEST_F(SceneBuilderTest, AStaticPointHitsAndItsRayClears) {
   SceneBuilder dut = Builder();
   Frame frame = FrameAt(0);

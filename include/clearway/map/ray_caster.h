@@ -1,7 +1,9 @@
 // The update that a cloud of rays makes.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "clearway/base/thread_pool.h"
 #include "clearway/map/ray.h"
@@ -9,6 +11,10 @@
 #include "clearway/map/voxel_map.h"
 
 namespace clearway {
+
+// The blocks that a cloud's rays may pass through, those where rays of very different directions
+// meet counted more than once. More would take gigabytes: a few rays of many kilometres do.
+inline constexpr std::size_t kMaxScanBlocks = std::size_t{1} << 20;
 
 // Casts clouds, one after the other; keeps its memory from one to the next. One thread at a time.
 class RayCaster {
@@ -21,11 +27,12 @@ class RayCaster {
 
   // The update of a map by a cloud: the same voxels as OctoMap's computeUpdate makes of it,
   // whatever the number of threads; grazing_m is not looked at. All points must be addressable in
-  // the grid.
-  ScanUpdate Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
+  // the grid. None if the rays pass through more than kMaxScanBlocks blocks.
+  std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
   // The same of that map, which the scan is going to update, with what RayOptions::grazing_m asks
   // for.
-  ScanUpdate Cast(const VoxelMap& map, const RayCloud& cloud, const RayOptions& options);
+  std::optional<ScanUpdate> Cast(const VoxelMap& map, const RayCloud& cloud,
+                                 const RayOptions& options);
 
  private:
   struct Impl;

@@ -53,8 +53,8 @@ class SceneBuilder {
 
   // Applies the frame whole, or refuses it whole and changes nothing: what Validate(frame) refuses;
   // FAILED_PRECONDITION for a stamp before the scene's newest, and for parts of parts;
-  // RESOURCE_EXHAUSTED for more objects than FrameLimits allows; INVALID_ARGUMENT for poses outside
-  // the addressable space.
+  // RESOURCE_EXHAUSTED for more objects than FrameLimits allows, and for rays that pass through more
+  // than kMaxScanBlocks blocks; INVALID_ARGUMENT for poses outside the addressable space.
   absl::StatusOr<FrameReport> Apply(const Frame& frame);
 
   // The scene so far as an immutable version. Versions count from 1; without a change since, the
@@ -96,8 +96,10 @@ class SceneBuilder {
   absl::Status CheckFits(const Frame& frame) const;
   // Applies a valid frame of the scene's own world W.
   absl::StatusOr<FrameReport> ApplyInScene(const Frame& frame);
-  // Updates the lasting map by a scan to the static map. Returns what is dynamic in that.
-  DynamicSpace CastIntoStatic(const LabelledCloud& cloud, Time stamp, VoxelMap& static_map_W);
+  // Updates the lasting map by a scan to the static map. Returns what is dynamic in that, or
+  // RESOURCE_EXHAUSTED as Apply does.
+  absl::StatusOr<DynamicSpace> CastIntoStatic(const LabelledCloud& cloud, Time stamp,
+                                              VoxelMap& static_map_W);
   // Takes over what `change` made of the scene's objects, unless it failed.
   absl::Status ChangeObjects(
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
