@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/object_motion.h"
+#include "scene/position_bound.h"
 
 namespace clearway {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "clearway/map/ray_caster.h"
 #include "scene/object_motion.h"
+#include "scene/position_bound.h"
 #include "scene/view_registration.h"
 
 namespace clearway {

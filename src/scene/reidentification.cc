@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "scene/object_motion.h"
+#include "scene/position_bound.h"
 #include "scene/view_registration.h"
 
 namespace clearway {
