@@ -37,8 +37,12 @@ Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unla
   if (!unlabelled.empty()) {
     unlabelled_.emplace(source.truth, std::set<ObjectId>(unlabelled.begin(), unlabelled.end()));
   }
-  if (!source.simulation) return;
-  judge_.emplace(*source.simulation, std::vector<Duration>(kAhead.begin(), kAhead.end()));
+  const std::vector<Duration> ahead(kAhead.begin(), kAhead.end());
+  if (source.simulation) {
+    judge_.emplace(*source.simulation, ahead);
+  } else if (!source.sizes_m.empty()) {
+    box_judge_.emplace(source.truth, source.sizes_m, ahead);
+  }
 }
 
 void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
@@ -46,6 +50,7 @@ void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
   predictions_.Add(*scene);
   boxes_.Add(*scene);
   if (judge_) judge_->Add(k, frame, *scene);
+  if (box_judge_) box_judge_->Add(k, frame, *scene);
   if (unlabelled_) unlabelled_->Add(frame, *scene);
   if (k % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
   AddObjects(*scene);
@@ -71,6 +76,11 @@ Evaluation Evaluator::Result() && {
     found_.fits = judge_->Fits();
     found_.solids = judge_->overlaps();
     found_.static_fit = judge_->FitOfStatic(*found_.scene);
+  }
+  if (box_judge_) {
+    found_.fits = box_judge_->Fits();
+    found_.solids = box_judge_->overlaps();
+    found_.residue = box_judge_->ResidueIn(*found_.scene);
   }
   return std::move(found_);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clearway/report/box_fit.h"
+#include "clearway/report/box_judge.h"
 #include "clearway/report/identity_score.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/report/surface_judge.h"
@@ -37,14 +38,19 @@ struct Evaluation {
   std::map<ObjectId, std::vector<Eigen::Vector2d>> growth;
   ScenePtr scene;                                                  // the last version
   std::map<ObjectId, std::shared_ptr<const MovingObject>> newest;  // dropped ones too
-  // Where the true surfaces are known: of simulations.
+  // Where the true surfaces are known, or recorded boxes stand for them.
   std::map<ObjectId, ObjectFit> fits;
   std::map<ObjectId, std::vector<SolidOverlap>> solids;  // by kAhead
-  std::optional<StaticFit> static_fit;
-  std::optional<Identities> identities;  // where objects came back under new ids
-  std::optional<Unlabelled> unlabelled;  // where some were not labelled
-  std::vector<Confusion> ways;           // by kWaysAhead
+  std::optional<StaticFit> static_fit;                   // of simulations
+  std::optional<BoxResidue> residue;                     // of recorded boxes
+  std::optional<Identities> identities;                  // where objects came back under new ids
+  std::optional<Unlabelled> unlabelled;                  // where some were not labelled
+  std::vector<Confusion> ways;                           // by kWaysAhead
 };
+
+// Why recorded boxes leave most of the static map unjudged.
+inline constexpr char kStaticNotKnown[] =
+    "precision and recall of the static map are not known: the true static world is not recorded";
 
 inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
 
@@ -72,6 +78,7 @@ class Evaluator {
   PredictionScore predictions_;
   BoxFitter boxes_;
   std::optional<SurfaceJudge> judge_;  // where the true surfaces are known
+  std::optional<BoxJudge> box_judge_;  // where boxes stand for them
   std::optional<UnlabelledScore> unlabelled_;
   WayConfusion ways_;
   std::optional<Time> first_;

@@ -11,8 +11,7 @@ Json ToJson(const ObjectFit& fit) {
           {"accuracy_m", fit.Accuracy_m()},
           {"p95_m", fit.Quantile_m(kMost)},
           {"met_pieces", fit.met},
-          {"completeness", fit.Completeness()},
-          {"growth_voxels", fit.growth}};
+          {"completeness", fit.Completeness()}};
 }
 
 Json ToJson(const StaticFit& fit) {
@@ -40,6 +39,15 @@ Json ToJson(const BoxFit& size) {
   return {{"true_m", cli::ToJson(size.true_m)},
           {"mapped_m", cli::ToJson(size.mapped_m)},
           {"worst_difference_m", size.WorstDifference_m()}};
+}
+
+// Seconds since the first frame, occupied voxels.
+Json ToJson(const std::vector<Eigen::Vector2d>& growth) {
+  Json json = Json::array();
+  for (const Eigen::Vector2d& at : growth) {
+    json.push_back({{"after_s", at.x()}, {"occupied_voxels", static_cast<std::int64_t>(at.y())}});
+  }
+  return json;
 }
 
 // By kAhead.
@@ -84,6 +92,8 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
     if (size != found.sizes.end()) object["size"] = ToJson(size->second);
     const auto fit = found.fits.find(id);
     if (fit != found.fits.end()) object["reconstruction"] = ToJson(fit->second);
+    const auto growth = found.growth.find(id);
+    if (growth != found.growth.end()) object["growth"] = ToJson(growth->second);
     const auto solids = found.solids.find(id);
     if (solids != found.solids.end()) object["solids"] = ToJson(solids->second);
     json["objects"].push_back(object);
@@ -106,6 +116,11 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
                           {"dynamic_voxels_elsewhere", found.unlabelled->dynamic_elsewhere}};
   }
   if (found.static_fit) json["static"] = ToJson(*found.static_fit);
+  if (found.residue) {
+    json["static"] = {{"residual_voxels", found.residue->occupied},
+                      {"passed_voxels", found.residue->passed},
+                      {"not_known", kStaticNotKnown}};
+  }
   Print(out, json);
 }
 

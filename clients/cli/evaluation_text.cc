@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -62,7 +65,13 @@ void PrintBounds(std::ostream& out, const TrueSource& source, const Evaluation& 
 void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "\nHow far from the true surface the occupied voxels of each object are, in metres: "
          "median, and\nwhat 95 % do not exceed; and how much of the surface that rays met has "
-         "voxels.\n\n";
+         "voxels.\n";
+  if (!source.simulation) {
+    out << "The surface is that of the recorded box, which an object does not fill (a cyclist less "
+           "than a van);\ncovered is the share of the places in the box where a ray met the object "
+           "that have voxels.\n";
+  }
+  out << "\n";
   Table table({"id", "what", "frames", "voxels", "error", "95 %", "covered"});
   for (const auto& [id, fit] : found.fits) {
     table.AddRow({absl::StrCat(id), NameOf(source, id), absl::StrCat(fit.growth.size()),
@@ -89,7 +98,12 @@ void PrintSizes(std::ostream& out, const TrueSource& source, const Evaluation& f
 
 void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "\nHow well the solids that are predicted agree with the true ones to within a voxel: "
-         "F-scores.\n\n";
+         "F-scores.\n";
+  if (!source.simulation) {
+    out << "The true ones are the recorded boxes; of these what lies in the hull of the points "
+           "measured has to be\nfound.\n";
+  }
+  out << "\n";
   std::vector<std::string> header = {"id", "what"};
   for (const Duration ahead : kAhead) header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
   Table table(header);
@@ -104,6 +118,38 @@ void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& 
   }
   add("", "all", Together(found.solids));
   out << table.ToString();
+}
+
+void PrintGrowth(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  constexpr std::array kAfter_s = {1.0, 2.0, 5.0, 10.0};
+  out << "\nHow the objects' maps grow: occupied voxels so many seconds after an object's first "
+         "points, and at the\nend; a dash where it was not seen for so long.\n\n";
+  std::vector<std::string> header = {"id", "what", "first voxels"};
+  for (const double after_s : kAfter_s) header.push_back(absl::StrCat(after_s, " s"));
+  header.insert(header.end(), {"end", "seen for"});
+  Table table(header);
+  for (const auto& [id, growth] : found.growth) {
+    const double first_s = growth.front().x(), last_s = growth.back().x();
+    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id),
+                                    Fixed(growth.front().y(), 0)};
+    for (const double after_s : kAfter_s) {
+      // Stamps are a little off the beat: what follows within a microsecond counts.
+      const auto later = std::ranges::find_if(
+          growth, [&](const Eigen::Vector2d& at) { return at.x() > first_s + after_s + 1e-6; });
+      const bool seen = last_s >= first_s + after_s - 1e-6;
+      row.push_back(seen ? Fixed(std::prev(later)->y(), 0) : "-");
+    }
+    row.push_back(Fixed(growth.back().y(), 0));
+    row.push_back(Fixed(last_s - first_s, 1) + " s");
+    table.AddRow(row);
+  }
+  out << table.ToString();
+}
+
+void PrintResidue(std::ostream& out, const BoxResidue& residue) {
+  out << "\nOf " << Grouped(residue.passed) << " voxels that objects filled at some time, "
+      << Grouped(residue.occupied) << " are still occupied in the static map.\nAlso "
+      << kStaticNotKnown << ".\n";
 }
 
 void PrintWays(std::ostream& out, const std::vector<Confusion>& ways) {
@@ -162,16 +208,22 @@ void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
 }  // namespace
 
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  out << source.frames.description << "\n\n";
+  out << source.frames.description << ", against " << source.truth.description << "\n\n";
   PrintPredictions(out, source, found);
   PrintBounds(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
+  if (found.fits.empty() && found.sizes.empty()) {
+    out << "\nSizes, accuracy, completeness, solids and residue are not known: the source tells "
+           "poses of objects\nbut no boxes.\n";
+  }
   if (!found.solids.empty()) PrintSolids(out, source, found);
+  if (!found.growth.empty()) PrintGrowth(out, source, found);
   PrintWays(out, found.ways);
   if (found.identities) PrintIdentities(out, *found.identities);
   if (found.unlabelled) PrintUnlabelled(out, *found.unlabelled);
   if (found.static_fit) PrintStatic(out, *found.static_fit);
+  if (found.residue) PrintResidue(out, *found.residue);
 }
 
 }  // namespace clearway::cli

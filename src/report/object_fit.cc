@@ -38,8 +38,9 @@ double ObjectFit::Completeness() const {
 
 void ObjectFitter::Add(const SceneSnapshot& scene, const Pose& T_R_W) {
   for (const auto& object : scene.objects) {
-    const auto T_W_B = world_->T_W_B(object->id, scene.stamp);
-    if (!T_W_B || object->last_seen != scene.stamp) continue;
+    if (object->last_seen != scene.stamp || !bodies_.Find(object->id)) continue;
+    const auto T_W_B = bodies_.T_W_B(object->id, scene.stamp);
+    if (!T_W_B) continue;
     Seen& seen = seen_[object->id];
     if (seen.object != nullptr && seen.object->first_seen != object->first_seen) seen = {};
     seen.object = object;
@@ -59,7 +60,7 @@ std::map<ObjectId, ObjectFit> ObjectFitter::Fits(const MetSurfaces& met) const {
 }
 
 ObjectFit ObjectFitter::FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const {
-  const Body& body = *world_->FindObject(seen.object->id);
+  const Body& body = *bodies_.Find(seen.object->id);
   const VoxelMap& map_O = seen.object->map_O;
   const Pose T_O_B = seen.T_O_B.Value(), T_B_O = Inverse(T_O_B);
   ObjectFit fit;

@@ -131,26 +131,29 @@ SolidOverlap& SolidOverlap::operator+=(const SolidOverlap& other) {
   return *this;
 }
 
-SolidScore::SolidScore(std::shared_ptr<const World> world, Time end, std::vector<Duration> ahead)
-    : world_(std::move(world)), end_(end), ahead_(std::move(ahead)) {}
+SolidScore::SolidScore(TrueBodies bodies, Time end, std::vector<Duration> ahead)
+    : bodies_(std::move(bodies)), end_(end), ahead_(std::move(ahead)) {}
 
 void SolidScore::Add(const SceneSnapshot& scene, const MetSurfaces& met) {
   for (const auto& object : scene.objects) {
-    const Body* const body = world_->FindObject(object->id);
+    const Body* const body = bodies_.Find(object->id);
     if (body == nullptr || object->last_seen != scene.stamp) continue;
     auto& overlaps = overlaps_.try_emplace(object->id, ahead_.size()).first->second;
     const double voxel_m = object->map_O.grid().resolution_m();
     std::vector<SeenBody> bodies = {{body, HullOf(met.Of(body->id), voxel_m)}};
-    for (const Body* part : world_->PartsOf(body->id)) {
+    for (const Body* part : bodies_.PartsOf(body->id)) {
       if (scene.FindObject(part->id) != nullptr || met.Of(part->id).empty()) continue;
       bodies.push_back({part, HullOf(met.Of(part->id), voxel_m)});
     }
     for (std::size_t i = 0; i < ahead_.size(); ++i) {
       const Time then = scene.stamp + ahead_[i];
       if (then > end_) continue;
-      const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
       std::vector<Pose> T_W_B;
-      for (const SeenBody& b : bodies) T_W_B.push_back(PoseAt(b.body->trajectory, then));
+      for (const SeenBody& b : bodies) {
+        if (const auto T = bodies_.T_W_B(b.body->id, then)) T_W_B.push_back(*T);
+      }
+      if (T_W_B.size() < bodies.size()) continue;
+      const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
       overlaps[i] += OverlapOf({*object, scene.params.solid, T_W_O, bodies, std::move(T_W_B)});
     }
   }

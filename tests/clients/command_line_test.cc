@@ -267,7 +267,23 @@ TEST(CommandLine, EvaluatesOnlyWhatTellsTheTruth) {
   Clearway({"simulate", "small", "--out", recording, "--frames", "1"});
   const Finished dut = Clearway({"evaluate", recording});
   EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, HasSubstr("drive.cwr: does not tell what really happened"));
+  EXPECT_THAT(dut.err, HasSubstr("drive.cwr: no frame gives the pose of an object"));
+}
+
+TEST(CommandLine, EvaluatesARecordingByThePosesThatItGives) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "drive.cwr";
+  Clearway({"simulate", "small", "--out", recording, "--frames", "12", "--objects", "poses"});
+  const Finished dut = Clearway({"evaluate", recording, "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  EXPECT_THAT(json["truth"], HasSubstr("poses of objects that the recording gives"));
+  ASSERT_FALSE(json["objects"].empty());
+  for (const auto& object : json["objects"]) {
+    EXPECT_GT(object["prediction"][0]["count"], 0) << object;
+    EXPECT_EQ(object["growth"].size(), 12u);
+    EXPECT_FALSE(object.contains("reconstruction"));
+  }
 }
 
 TEST(CommandLine, NeverReplacesARecordingUnasked) {

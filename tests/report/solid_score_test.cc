@@ -94,11 +94,11 @@ TEST(SolidScore, WhatWasNotSeenDoesNotCount) {
 
 // Two halves that a scene takes for one object are judged by both.
 TEST(SolidScore, PartsThatTheSceneDoesNotKnowCountWithTheirWhole) {
-  auto world = std::make_shared<World>();
-  world->Add(Body::Single(7, "front", Box{{1, 1, 1}}, FixedPose{Pose::Translation(-1.5, 0, 0)}));
+  const Body front =
+      Body::Single(7, "front", Box{{1, 1, 1}}, FixedPose{Pose::Translation(-1.5, 0, 0)});
   Body back = Body::Single(8, "back", Box{{1, 1, 1}}, FixedPose{Pose::Translation(-2.5, 0, 0)});
   back.part_of = 7;
-  world->Add(back);
+  const auto world = std::make_shared<const World>(std::vector<Body>{front, back});
   MetSurfaces met(world);
   Frame frame;
   frame.stamp = TestScene().stamp;

@@ -8,17 +8,21 @@
 
 #include "clearway/report/mean_pose.h"
 #include "clearway/report/met_surfaces.h"
+#include "clearway/report/true_bodies.h"
 #include "clearway/scene/scene_snapshot.h"
-#include "clearway/sim/world.h"
 
 namespace clearway {
 
 struct ObjectFit {
   double voxel_m = 0;
-  // From the centre of each occupied voxel to the nearest true surface, in metres, ascending.
+  // From the centre of each occupied voxel to the nearest true surface, in metres, ascending. Of
+  // recorded boxes: to the nearest face.
   std::vector<double> errors_m;
   // Pieces, of the size of a voxel, of the true surface that rays met; and of these the ones with
-  // an occupied voxel at most half a voxel away.
+  // an occupied voxel at most half a voxel away. Of recorded boxes a piece is a place in the box
+  // where a point of the object was measured, as the box lay then: it shows how much of what was
+  // measured the map kept, smeared by as much as the boxes jitter; not what no ray has met, and not
+  // whether what was measured is the object's.
   std::size_t met = 0, covered = 0;
   // Occupied voxels after each frame in which it was seen.
   std::vector<std::int64_t> growth;
@@ -34,7 +38,7 @@ struct ObjectFit {
 // about the object's place, and the sensor's, is no fault of the map's. One thread.
 class ObjectFitter {
  public:
-  explicit ObjectFitter(std::shared_ptr<const World> world) : world_(std::move(world)) {}
+  explicit ObjectFitter(TrueBodies bodies) : bodies_(std::move(bodies)) {}
 
   // The version after a frame. T_R_W: from W to where the frame's scan shows it, by what the source
   // gets wrong about the sensor's pose.
@@ -51,7 +55,7 @@ class ObjectFitter {
   };
   ObjectFit FitOf(const Seen& seen, const MetSurfaces::Pieces& met_B) const;
 
-  std::shared_ptr<const World> world_;
+  TrueBodies bodies_;
   std::map<ObjectId, Seen> seen_;
 };
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "clearway/report/met_surfaces.h"
+#include "clearway/report/true_bodies.h"
 #include "clearway/scene/scene_snapshot.h"
-#include "clearway/sim/world.h"
 
 namespace clearway {
 
@@ -29,15 +29,15 @@ struct SolidOverlap {
   SolidOverlap& operator+=(const SolidOverlap& other);
 };
 
-// Collects overlaps over the versions of a scene of a simulated world. Predicted is what an object
+// Collects overlaps over the versions of a scene. Predicted is what an object
 // fills (params.solid), where the scene predicts it. Seen is what lies both in the body and in the
 // convex hull of the voxels that rays met of it: of what no ray has met nothing is known. Parts
 // of a body that the scene does not have as objects are taken for the body's own. Voxels
 // are as large as those of the object's map, in W. One thread.
 class SolidScore {
  public:
-  // Predictions of times after `end` are left out.
-  SolidScore(std::shared_ptr<const World> world, Time end, std::vector<Duration> ahead);
+  // Predictions of times after `end`, and of those when a body's place is not known, are left out.
+  SolidScore(TrueBodies bodies, Time end, std::vector<Duration> ahead);
 
   // The version after a frame, and what was met until then. Objects count that were seen in it.
   void Add(const SceneSnapshot& scene, const MetSurfaces& met);
@@ -46,7 +46,7 @@ class SolidScore {
   const std::map<ObjectId, std::vector<SolidOverlap>>& overlaps() const { return overlaps_; }
 
  private:
-  std::shared_ptr<const World> world_;
+  TrueBodies bodies_;
   Time end_;
   std::vector<Duration> ahead_;
   std::map<ObjectId, std::vector<SolidOverlap>> overlaps_;
