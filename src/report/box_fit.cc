@@ -1,8 +1,9 @@
 #include "clearway/report/box_fit.h"
 
-#include <algorithm>
 #include <array>
 #include <vector>
+
+#include "clearway/scene/object_extent.h"
 
 namespace clearway {
 namespace {
@@ -16,14 +17,6 @@ std::array<std::vector<double>, 3> CentersAlongAxes(const VoxelMap& map_O, const
     });
   });
   return centers;
-}
-
-// There must be a value.
-double Span(std::vector<double> values) {
-  constexpr double kLeftOut = 0.01;
-  std::ranges::sort(values);
-  const auto at = static_cast<std::size_t>(kLeftOut * static_cast<double>(values.size()));
-  return values[values.size() - 1 - at] - values[at];
 }
 
 }  // namespace
@@ -46,7 +39,7 @@ std::map<ObjectId, BoxFit> BoxFitter::Fits() const {
   for (const auto& [id, seen] : seen_) {
     const auto centers = CentersAlongAxes(seen.object->map_O, Inverse(seen.T_O_B.Value()));
     if (centers[0].empty()) continue;
-    fits[id] = {seen.size_m, {Span(centers[0]), Span(centers[1]), Span(centers[2])}};
+    fits[id] = {seen.size_m, {SpanOf(centers[0]).length, SpanOf(centers[1]).length, SpanOf(centers[2]).length}};
   }
   return fits;
 }

@@ -1,8 +1,9 @@
 #include "clearway/scene/object_extent.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -14,11 +15,11 @@ namespace {
 // Slower than this, a direction of motion is noise.
 constexpr double kMovingMps = 0.5;
 
-// The centres of the occupied voxels, or a given object's corners, as far as an upright box is
-// concerned.
+// The centres of the occupied voxels, or a given object's corners; and their outline from above.
 struct Footprint {
+  std::vector<Eigen::Vector3d> points_O;
   Polygon outline_O;
-  double min_z_m = std::numeric_limits<double>::infinity(), max_z_m = -min_z_m;
+  bool exact = false;  // told, not seen
 };
 
 // The points of it that an outline can have, in O.
@@ -37,47 +38,70 @@ void ForEachPoint(const PlacedPart& part, Add&& add) {
 
 Footprint FootprintOf(std::span<const PlacedPart> parts) {
   Footprint footprint;
-  std::vector<Eigen::Vector2d> points_O;
+  footprint.exact = parts.front().object->given();
   for (const PlacedPart& part : parts) {
-    ForEachPoint(part, [&](const Eigen::Vector3d& p_O) {
-      points_O.push_back(p_O.head<2>());
-      footprint.min_z_m = std::min(footprint.min_z_m, p_O.z());
-      footprint.max_z_m = std::max(footprint.max_z_m, p_O.z());
-    });
+    ForEachPoint(part, [&](const Eigen::Vector3d& p_O) { footprint.points_O.push_back(p_O); });
   }
-  footprint.outline_O = ConvexOutline(points_O);
+  std::vector<Eigen::Vector2d> from_above;
+  for (const Eigen::Vector3d& p_O : footprint.points_O) from_above.push_back(p_O.head<2>());
+  footprint.outline_O = ConvexOutline(from_above);
   // Too thin for an outline: any of them bounds it.
-  if (footprint.outline_O.size() < 3) footprint.outline_O = std::move(points_O);
+  if (footprint.outline_O.size() < 3) footprint.outline_O = std::move(from_above);
   return footprint;
 }
 
-// The box around the footprint with its length along `yaw_rad`.
-ObjectExtent ExtentAt(const Footprint& footprint, double yaw_rad) {
-  const Eigen::Quaterniond R_O_E(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
-  Aabb box_E;
-  for (const Eigen::Vector2d& p_O : footprint.outline_O) {
-    for (const double z_m : {footprint.min_z_m, footprint.max_z_m}) {
-      box_E.Extend(R_O_E.conjugate() * Eigen::Vector3d(p_O.x(), p_O.y(), z_m));
-    }
-  }
-  return {yaw_rad, box_E.Size(), R_O_E * box_E.Center()};
+double AreaAt(const Polygon& outline_O, double yaw_rad) {
+  const Eigen::Rotation2Dd R_E_O(-yaw_rad);
+  Eigen::AlignedBox2d box_E;
+  for (const Eigen::Vector2d& p_O : outline_O) box_E.extend(R_E_O * p_O);
+  return box_E.volume();
 }
 
-double AreaOf(const ObjectExtent& extent) { return extent.size_m.x() * extent.size_m.y(); }
-
 // The smallest rectangle lies along an edge of the outline.
-ObjectExtent SmallestExtent(const Footprint& footprint) {
-  const Polygon& outline_O = footprint.outline_O;
-  ObjectExtent best = ExtentAt(footprint, 0);
+double YawOfSmallest(const Polygon& outline_O) {
+  double best_rad = 0, best_m2 = AreaAt(outline_O, 0);
   for (std::size_t i = 0; i < outline_O.size(); ++i) {
     const Eigen::Vector2d edge = outline_O[(i + 1) % outline_O.size()] - outline_O[i];
-    const ObjectExtent extent = ExtentAt(footprint, std::atan2(edge.y(), edge.x()));
-    if (AreaOf(extent) < AreaOf(best)) best = extent;
+    const double yaw_rad = std::atan2(edge.y(), edge.x());
+    const double area_m2 = AreaAt(outline_O, yaw_rad);
+    if (area_m2 < best_m2) best_m2 = area_m2, best_rad = yaw_rad;
   }
-  return best;
+  return best_rad;
+}
+
+// Without that share of the values at each end.
+Span1d SpanWithout(double share, std::vector<double> values) {
+  const auto skipped = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  const auto low = values.begin() + skipped, high = values.end() - 1 - skipped;
+  std::nth_element(values.begin(), low, values.end());
+  const double least = *low;
+  std::nth_element(low, high, values.end());
+  return {*high - least, 0.5 * (*high + least)};
+}
+
+// With the length along `yaw_rad`.
+ObjectExtent ExtentAt(const Footprint& footprint, double yaw_rad) {
+  const Eigen::Quaterniond R_O_E(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()));
+  std::array<std::vector<double>, 3> along_E;
+  for (const Eigen::Vector3d& p_O : footprint.points_O) {
+    const Eigen::Vector3d p_E = R_O_E.conjugate() * p_O;
+    for (int axis = 0; axis < 3; ++axis) along_E[axis].push_back(p_E[axis]);
+  }
+  ObjectExtent extent{.yaw_rad = yaw_rad};
+  Eigen::Vector3d center_E;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [length, middle] = footprint.exact ? SpanWithout(0, std::move(along_E[axis]))
+                                                  : SpanOf(std::move(along_E[axis]));
+    extent.size_m[axis] = length;
+    center_E[axis] = middle;
+  }
+  extent.center_O = R_O_E * center_E;
+  return extent;
 }
 
 }  // namespace
+
+Span1d SpanOf(std::vector<double> values) { return SpanWithout(0.01, std::move(values)); }
 
 ObjectExtent ExtentOf(const MovingObject& object) { return ExtentOf(object, {}); }
 
@@ -86,7 +110,7 @@ ObjectExtent ExtentOf(const MovingObject& object, std::span<const PlacedPart> pa
   all.insert(all.end(), parts.begin(), parts.end());
   const Footprint footprint = FootprintOf(all);
   if (footprint.outline_O.empty()) return {};
-  ObjectExtent best = SmallestExtent(footprint);
+  ObjectExtent best = ExtentAt(footprint, YawOfSmallest(footprint.outline_O));
   constexpr double kPi = std::numbers::pi;
   if (best.size_m.x() < best.size_m.y()) best = ExtentAt(footprint, best.yaw_rad + kPi / 2);
   if (!object.given()) best.size_m = best.size_m.cwiseMax(object.map_O.grid().resolution_m());

@@ -43,6 +43,27 @@ TEST(ObjectExtent, IsTheBoxWhateverItsDirection) {
   }
 }
 
+// What a wrong label has put beside it.
+TEST(ObjectExtent, IsNotThatOfAFewVoxelsFarOff) {
+  const MovingObject box = TurnedBox(0);
+  const ObjectExtent before = ExtentOf(box);
+  VoxelMap map_O = box.map_O;
+  for (int i = 0; i < 5; ++i) map_O.Set({0, 15 + i, 0}, map_O.model().clamp_max);
+  const MovingObject spoilt = WithMap(box, map_O);
+  EXPECT_NEAR(spoilt.solid->box_O.Size().y(), box.solid->box_O.Size().y() + 1, 0.15);
+  EXPECT_NEAR(ExtentOf(spoilt).size_m.y(), before.size_m.y(), 0.15);
+}
+
+TEST(SpanOf, LeavesOutAHundredthAtEachEnd) {
+  std::vector<double> values;
+  for (int i = 199; i >= 0; --i) values.push_back(i);
+  EXPECT_EQ(SpanOf(values).length, 195);  // from 2 to 197
+  EXPECT_EQ(SpanOf(values).middle, 99.5);
+  EXPECT_EQ(SpanOf({7, 3}).length, 4);
+  EXPECT_EQ(SpanOf({7}).length, 0);
+  EXPECT_EQ(SpanOf({7}).middle, 7);
+}
+
 TEST(ObjectExtent, LengthPointsForwards) {
   MovingObject object = TurnedBox(0.3);
   for (const double heading_rad : {0.3, 0.3 + std::numbers::pi, 1.5, -1.0}) {

@@ -139,7 +139,7 @@ TEST_F(RealDriveTest, NoTrailsAndTheVanHasItsSize) {
   std::cout << "van " << van_size_m.transpose() << " m, its map " << extent.size_m.transpose()
             << " m, " << van->map_O.occupied_count() << " voxels, " << van->frames_seen
             << " frames\n";
-  EXPECT_LT((extent.size_m - van_size_m).cwiseAbs().maxCoeff(), 0.3);
+  EXPECT_LT((extent.size_m - van_size_m).cwiseAbs().maxCoeff(), 0.2);
 }
 
 }  // namespace

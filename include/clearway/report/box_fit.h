@@ -13,7 +13,7 @@ namespace clearway {
 // Lengths along the axes of the true box, x along its length, in metres.
 struct BoxFit {
   Eigen::Vector3d true_m = Eigen::Vector3d::Zero();
-  // Between the centres of occupied voxels, the outermost of them (1 % at each end) left out.
+  // SpanOf the centres of occupied voxels (scene/object_extent.h).
   Eigen::Vector3d mapped_m = Eigen::Vector3d::Zero();
 
   // Of the axis where they differ most. What no ray has met is missing in the map.
