@@ -160,7 +160,7 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.clear_objects_by_rays", scene.clear_objects_by_rays,
                        "whether rays clear voxels of objects"),
       CLEARWAY_SETTING("scene.motion", scene.motion,
-                       "what is extrapolated: the last motion, or one that fits the track"),
+                       "last or track: extrapolate the last motion, or a fit of the track"),
       CLEARWAY_SETTING("scene.horizon_s", scene.horizon, "how long motions are extrapolated"),
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,
                        "objects unseen for longer are dropped"),

@@ -26,11 +26,15 @@ absl::StatusOr<FileInfo> InfoOf(const Flags& flags) {
       return InfoOfSimulation(flags.spec, flags.source);
     case SourceKind::kLidarFolder:
       return InfoOfLidarFolder(flags.spec, flags.source);
-    case SourceKind::kOctomap:
-      return InfoOfOctomap(flags.spec);
+    case SourceKind::kOctomap: {
+      const auto status = CheckSourceFlags(flags.source, flags.spec, SourceFormat::kOctomap);
+      return status.ok() ? InfoOfOctomap(flags.spec) : status;
+    }
     case SourceKind::kRecording:
       break;
   }
+  const auto status = CheckSourceFlags(flags.source, flags.spec, SourceFormat::kRecording);
+  if (!status.ok()) return status;
   return InfoOfRecording(flags.spec);
 }
 
@@ -57,11 +61,7 @@ void AddInfo(Cli& cli) {
           "A recording, a folder of LiDAR scans (CARLA's, too), a\nKITTI, TUM RGB-D or ClusterSLAM "
           "sequence, DynoSAM's\nlogs, an OctoMap file (.bt, .ot), or sim:NAME")
       ->required();
-  command
-      ->add_option("--poses", flags->source.poses,
-                   "A LiDAR folder's tables: icp, oxts, plain, or any\n(the first there is)")
-      ->check(CLI::IsMember({"any", "plain", "icp", "oxts"}).description(""))
-      ->capture_default_str();
+  AddPosesFlag(command, &flags->source);
   command->add_flag("--json", flags->json, "Print JSON");
 }
 

@@ -205,11 +205,13 @@ void AddPlan(Cli& cli) {
   CLI::App* command = AddCommand(cli, "plan", "Plan a way around moving objects", kExamples,
                                  [flags, &cli] { return Run(*flags, cli.terminal); });
   AddServerFlags(command, &flags->server);
-  command->add_option("file", flags->file, "what to plan, a scenario file")->required();
-  command->add_option("--budget", flags->budget_s, "seconds to think (1); servers limit it")
+  command->add_option("file", flags->file, "What to plan: a scenario file (docs/formats.md)")
+      ->required();
+  command
+      ->add_option("--budget", flags->budget_s, "Seconds to think (default: 1); servers limit it")
       ->check(Between(0.001, 3600));
-  command->add_flag("--first", flags->first, "end with the first plan");
-  command->add_flag("--json", flags->json, "print JSON");
+  command->add_flag("--first", flags->first, "End with the first plan");
+  command->add_flag("--json", flags->json, "Print JSON");
 }
 
 }  // namespace clearway::cli

@@ -1,7 +1,7 @@
 #include "cli/open_source.h"
 
 #include <filesystem>
-#include <map>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/io/carla.h"
@@ -11,7 +11,6 @@
 #include "clearway/io/recording.h"
 #include "clearway/io/tum_rgbd.h"
 #include "clearway/sim/scenarios.h"
-#include "cli/cli.h"
 
 namespace clearway::cli {
 namespace {
@@ -51,69 +50,42 @@ absl::StatusOr<LidarFolder> OpenCluster(const std::string& path, const SourceFla
                                 .max_depth_m = flags.max_depth_m});
 }
 
+SourceFormat FormatOfFolder(const std::string& path) {
+  if (IsTumRgbd(path)) return SourceFormat::kTumRgbd;
+  if (IsDynosam(path)) return SourceFormat::kDynosam;
+  if (IsClusterSlam(path)) return SourceFormat::kClusterSlam;
+  if (IsCarla(path)) return SourceFormat::kCarla;
+  return IsKittiTracking(path) ? SourceFormat::kKittiTracking : SourceFormat::kLidarFolder;
+}
+
+absl::StatusOr<LidarFolder> OpenFormat(SourceFormat format, const std::string& path,
+                                       const SourceFlags& flags, bool allow_missing_points) {
+  if (format == SourceFormat::kTumRgbd) return OpenTum(path, flags, allow_missing_points);
+  if (format == SourceFormat::kClusterSlam) return OpenCluster(path, flags, allow_missing_points);
+  if (format == SourceFormat::kDynosam) {
+    return OpenDynosam(path, {.objects = LidarObjectsOf(flags.objects),
+                              .allow_missing_points = allow_missing_points});
+  }
+  LidarFolderOptions options;
+  options.poses = LidarPosesOf(flags.poses);
+  options.objects = LidarObjectsOf(flags.objects);
+  options.allow_missing_points = allow_missing_points;
+  if (format == SourceFormat::kCarla) return OpenCarla(path, options);
+  if (format == SourceFormat::kKittiTracking) return OpenKittiTracking(path, options);
+  return OpenLidarFolder(path, options);
+}
+
+SourceContent ContentOf(const Simulation& simulation) {
+  SourceContent content;
+  for (const ObjectId id : simulation.world().ObjectIds()) {
+    content.objects.insert(id);
+    content.has_parts |= simulation.world().FindObject(id)->part_of != kStaticLabel;
+  }
+  content.has_beams = std::holds_alternative<SpinningLidar>(simulation.spec().sensor);
+  return content;
+}
+
 }  // namespace
-
-void AddSimulationFlags(CLI::App* command, SourceFlags* flags) {
-  const char* const group = "Simulator";
-  command->add_option("--seed", flags->seed, "Seed of all noise")
-      ->check(NotNegative())
-      ->capture_default_str()
-      ->group(group);
-  command
-      ->add_option("--noise", flags->noise,
-                   "Errors of the simulated SLAM: none, or table1 (the paper's)")
-      ->check(CLI::IsMember({"none", "table1"}).description(""))
-      ->capture_default_str()
-      ->group(group);
-  command
-      ->add_option("--range-noise", flags->range_noise_m,
-                   "Standard deviation along each ray, in metres")
-      ->check(Between(0, 1))
-      ->group(group);
-  command->add_option("--frames", flags->frames, "Number of frames (default: the scenario's)")
-      ->check(CLI::Range(1, 1'000'000).description(""))
-      ->group(group);
-  command->add_option("--beams", flags->beams, "Beams of its LiDAR: 16, 32 or 64")
-      ->check(CLI::IsMember({16, 32, 64}).description(""))
-      ->group(group);
-  command
-      ->add_flag("--keep-no-return", flags->keep_no_return,
-                 "Rays that meet nothing clear space up to their range")
-      ->group(group);
-}
-
-void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
-  command
-      ->add_option("--objects", flags->objects,
-                   "What frames say of objects: motions, poses or none\n"
-                   "(simulator and folders)")
-      ->check(CLI::IsMember({"motions", "poses", "none"}).description(""))
-      ->capture_default_str()
-      ->group("Source");
-  command
-      ->add_option("--poses", flags->poses,
-                   "A LiDAR folder's tables: icp, oxts, plain, or any\n(the first there is)")
-      ->check(CLI::IsMember({"any", "plain", "icp", "oxts"}).description(""))
-      ->capture_default_str()
-      ->group("Source");
-  command
-      ->add_flag("--allow-missing-points", flags->allow_missing_points,
-                 "Take frames of a folder that have a pose but no file of\npoints as frames "
-                 "without points")
-      ->group("Source");
-  command
-      ->add_option("--stride", flags->stride,
-                   "Of a TUM RGB-D sequence's images, use every n-th column\nand row")
-      ->check(CLI::Range(1, 65'535).description(""))
-      ->capture_default_str()
-      ->group("Source");
-  command
-      ->add_option("--max-depth", flags->max_depth_m,
-                   "Of a TUM RGB-D or ClusterSLAM sequence, leave out what is\nfarther, in metres")
-      ->check(Between(0.001, 1e6))
-      ->group("Source");
-  AddSimulationFlags(command, flags);
-}
 
 SourceKind KindOf(const std::string& spec) {
   if (spec.starts_with(kSimulationPrefix)) return SourceKind::kSimulation;
@@ -128,6 +100,9 @@ SourceKind KindOf(const std::string& spec) {
 }
 
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags) {
+  if (auto status = CheckSourceFlags(flags, spec, SourceFormat::kSimulation); !status.ok()) {
+    return status;
+  }
   const std::string name =
       spec.starts_with(kSimulationPrefix) ? spec.substr(sizeof(kSimulationPrefix) - 1) : spec;
   ScenarioOptions options;
@@ -136,30 +111,25 @@ absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceF
   options.report = ObjectReportOf(flags.objects);
   options.keep_no_return = flags.keep_no_return;
   options.frame_count = flags.frames;
+  const auto exact = MakeScenario(name, options);
+  if (!exact.ok()) return exact.status();
+  if (auto status = CheckSourceContent(flags, spec, ContentOf(*exact)); !status.ok()) return status;
   options.beams = flags.beams;
-  if (flags.noise == "table1") {
-    // The noise depends on the time between frames, which is the scenario's.
-    const auto exact = MakeScenario(name, options);
-    if (!exact.ok()) return exact.status();
-    options.noise = SlamNoise::TableOne(exact->spec().period);
-  }
+  // The noise depends on the time between frames, which is the scenario's.
+  if (flags.noise == "table1") options.noise = SlamNoise::TableOne(exact->spec().period);
   return MakeScenario(name, options);
 }
 
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points) {
-  if (IsTumRgbd(path)) return OpenTum(path, flags, allow_missing_points);
-  if (IsDynosam(path)) {
-    return OpenDynosam(path, {.objects = LidarObjectsOf(flags.objects),
-                              .allow_missing_points = allow_missing_points});
-  }
-  if (IsClusterSlam(path)) return OpenCluster(path, flags, allow_missing_points);
-  LidarFolderOptions options;
-  options.poses = LidarPosesOf(flags.poses);
-  options.objects = LidarObjectsOf(flags.objects);
-  options.allow_missing_points = allow_missing_points;
-  if (IsCarla(path)) return OpenCarla(path, options);
-  return IsKittiTracking(path) ? OpenKittiTracking(path, options) : OpenLidarFolder(path, options);
+  const SourceFormat format = FormatOfFolder(path);
+  if (auto status = CheckSourceFlags(flags, path, format); !status.ok()) return status;
+  auto folder = OpenFormat(format, path, flags, allow_missing_points);
+  if (!folder.ok()) return folder;
+  SourceContent content;
+  for (const RecordedBox& box : folder->boxes) content.objects.insert(box.id);
+  if (auto status = CheckSourceContent(flags, path, content); !status.ok()) return status;
+  return folder;
 }
 
 absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlags& flags) {
@@ -179,6 +149,9 @@ absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlag
           spec, ": a map holds no frames; 'clearway load-prior' sends it to a server"));
     case SourceKind::kRecording:
       break;
+  }
+  if (auto status = CheckSourceFlags(flags, spec, SourceFormat::kRecording); !status.ok()) {
+    return status;
   }
   return OpenRecording(spec);
 }

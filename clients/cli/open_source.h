@@ -1,43 +1,21 @@
 // Every kind of source of frames behind one function.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <cstdint>
-#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "clearway/io/frame_source.h"
 #include "clearway/io/lidar_folder.h"
 #include "clearway/sim/simulation.h"
+#include "cli/source_flags.h"
 
 namespace clearway::cli {
-
-// Choices about a source; those of another kind of source are ignored.
-struct SourceFlags {
-  // Simulator.
-  std::uint64_t seed = 1;
-  std::string noise = "none";
-  std::optional<std::size_t> frames;
-  double range_noise_m = 0;
-  std::optional<int> beams;
-  bool keep_no_return = false;
-  bool allow_missing_points = false;
-  // LiDAR folders.
-  std::string poses = "any";
-  // TUM RGB-D sequences; the second of ClusterSLAM's, too.
-  std::uint32_t stride = 1;
-  std::optional<double> max_depth_m;
-  // All of them.
-  std::string objects = "motions";
-};
-
-void AddSimulationFlags(CLI::App* command, SourceFlags* flags);
-void AddSourceFlags(CLI::App* command, SourceFlags* flags);  // those of every kind
 
 // What a text names.
 enum class SourceKind { kSimulation, kLidarFolder, kOctomap, kRecording };
 SourceKind KindOf(const std::string& spec);
+
+// All that open something refuse flags that are for other kinds of source, as CheckSourceFlags.
 
 // "sim:crossing", or "crossing"; NOT_FOUND lists the scenarios.
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags);

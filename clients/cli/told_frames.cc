@@ -45,7 +45,7 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
       ->add_option("--parts", flags->parts,
                    "Tell objects that consist of parts as such (told), as an\nobject for each part "
                    "(apart), or as one rigid object (one)")
-      ->check(CLI::IsMember({"told", "apart", "one"}))
+      ->check(CLI::IsMember({"told", "apart", "one"}).description(""))
       ->capture_default_str()
       ->group(group);
 }

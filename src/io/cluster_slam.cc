@@ -85,7 +85,7 @@ absl::Status CheckFit(const ClusterFit& fit, const Path& folder, LidarObjects ob
     return absl::InvalidArgumentError(
         absl::StrCat(folder.string(), ": landmarks of moving clusters are seen ", *fit.moving_px,
                      " pixels (median) from where the clusters' poses put them; the limit is ",
-                     kMostError_px, " (objects none goes on without these poses)"));
+                     kMostError_px, " (--objects none goes on without these poses)"));
   }
   return absl::OkStatus();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -113,6 +114,7 @@ absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
   auto lines = ReadWordLines(path, LastLine::kEnds);
   if (!lines.ok()) return lines.status();
   KittiLabels labels;
+  std::map<std::pair<int, int>, std::string> seen;  // where, by frame and track
   for (Words& line : *lines) {
     if (line.size() != 17 && line.size() != 18) return WrongCount(line, "17, or 18 with a score");
     const int frame = line.Integer(0, 0);
@@ -130,6 +132,12 @@ absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
       }
       const Eigen::Vector3d bottom_C(line.Number(13), line.Number(14), line.Number(15));
       box.T_C_B = BoxInCamera(bottom_C, box.size_m.z(), line.Number(16));
+      const auto [first, is_new] = seen.try_emplace({frame, box.track}, line.where());
+      if (!is_new && line.status().ok()) {
+        return absl::InvalidArgumentError(absl::StrCat(line.where(), ": a second box of track ",
+                                                       box.track, " in frame ", frame,
+                                                       "; the first: ", first->second));
+      }
       labels.boxes.push_back(std::move(box));
     }
     if (!line.status().ok()) return line.status();

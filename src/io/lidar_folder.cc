@@ -67,12 +67,13 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
       return suffix;
     }
   }
-  return absl::NotFoundError(
-      absl::StrCat(folder.string(),
-                   ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
-                   "sequence is named by the folder of its scans, training/velodyne/NNNN; a TUM "
-                   "RGB-D sequence has a depth.txt, a folder of DynoSAM's logs a "
-                   "*_camera_pose_log.csv)"));
+  return absl::NotFoundError(absl::StrCat(
+      folder.string(),
+      ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
+      "sequence is named by the folder of its scans, training/velodyne/NNNN; a TUM "
+      "RGB-D sequence has a depth.txt, a ClusterSLAM sequence a landmark_mapping.txt and a "
+      "folder pose, a folder of CARLA's scans a carla_sensor.csv, one of DynoSAM's logs "
+      "a *_camera_pose_log.csv)"));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ absl::Status CheckPointFiles(const OpenScans& open) {
   if (missing == 0) return absl::OkStatus();
   return absl::NotFoundError(absl::StrCat(
       first.string(), ": no such file; ", missing, " of ", open.poses.size(),
-      " frames have a pose but no file of points (allow-missing-points goes on without)"));
+      " frames have a pose but no file of points (--allow-missing-points goes on without)"));
 }
 
 template <class Row>

@@ -67,6 +67,7 @@ class Reader {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(absl::StrCat(name_, ", line ", line_number_, ": ", why));
   }
+  void FailEmpty() { status_ = absl::InvalidArgumentError(name_ + ": the file is empty"); }
   void FailCutOff(const std::string& why) {
     if (!status_.ok()) return;
     status_ = absl::InvalidArgumentError(absl::StrCat(name_, ": ", why, "; the file is cut off"));
@@ -115,7 +116,11 @@ void TakeProperty(const std::vector<std::string_view>& words, Reader& reader, He
 // Up to end_header.
 Header TakeHeader(Reader& reader) {
   Header header;
-  if (!reader.NextLine() || reader.TakeWords() != std::vector<std::string_view>{"ply"}) {
+  if (reader.left() == 0) {
+    reader.FailEmpty();
+  } else if (!reader.NextLine()) {
+    reader.FailCutOff("its first line does not end");
+  } else if (reader.TakeWords() != std::vector<std::string_view>{"ply"}) {
     reader.Fail("no PLY file: it does not begin with 'ply'");
   }
   bool formatted = false;

@@ -15,6 +15,7 @@ using Path = std::filesystem::path;
 
 constexpr Duration kReach = std::chrono::milliseconds(20);  // that of the benchmark's associate.py
 constexpr Duration kLongestGap = std::chrono::milliseconds(100);
+constexpr int kMostId = 65'535;        // a mask's pixels have 16 bits
 constexpr double kDepthFactor = 5000;  // counts per metre
 
 // Those of the colour camera, for which depth images are registered.
@@ -124,7 +125,7 @@ absl::StatusOr<std::map<ObjectId, TumTrack>> ReadTumObjects(const Path& path) {
   for (Words& line : *lines) {
     if (line.size() != 9) return WrongCount(line, "timestamp id tx ty tz qx qy qz qw");
     const TumPose pose{line.Stamp(0), line.PoseFrom(2)};
-    const ObjectId id = line.Integer(1, 1);
+    const ObjectId id = line.Integer(1, 1, kMostId);
     if (!line.status().ok()) return line.status();
     TumTrack& track = tracks[id];
     if (!track.empty() && pose.stamp <= track.back().stamp) {

@@ -17,7 +17,6 @@ namespace clearway {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = 1 << 28;
-constexpr int kMost = 99'999'999;
 constexpr double kMostSeconds = 4e9;  // in 2096; below kFarthest_ns
 
 bool AllDigits(std::string_view text) {
@@ -55,10 +54,10 @@ double Words::Positive(std::size_t i) {
   return value;
 }
 
-int Words::Integer(std::size_t i, int min) {
+int Words::Integer(std::size_t i, int min, int max) {
   int value = 0;
-  if (!absl::SimpleAtoi(words_[i], &value) || value < min || value > kMost) {
-    Fail(i, absl::StrCat("an integer from ", min, " to ", kMost));
+  if (!absl::SimpleAtoi(words_[i], &value) || value < min || value > max) {
+    Fail(i, absl::StrCat("an integer from ", min, " to ", max));
   }
   return value;
 }

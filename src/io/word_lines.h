@@ -26,8 +26,7 @@ class Words {
   // Within a million either way.
   double Number(std::size_t i);
   double Positive(std::size_t i);
-  // At most 99,999,999.
-  int Integer(std::size_t i, int min);
+  int Integer(std::size_t i, int min, int max = 99'999'999);
   // Seconds, not below 0, exactly as far as they are written with up to nine decimals.
   Time Stamp(std::size_t i);
   // x, y, z, then a quaternion's x, y, z, w, which is normalised: files round it.

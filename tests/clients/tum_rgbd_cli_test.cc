@@ -89,6 +89,13 @@ TEST_F(TumSequence, EvaluateJudgesByThePosesOfObjects) {
   EXPECT_FALSE(found["objects"][0].contains("size"));
 }
 
+TEST_F(TumSequence, EvaluateRefusesToUnlabelWhatIsNotThere) {
+  const Finished dut = Local({"evaluate", path(), "--unlabelled", "5,6"});
+  EXPECT_EQ(dut.exit_code, 2);
+  EXPECT_THAT(dut.err, HasSubstr("has no object 6; it has 5"));
+  EXPECT_EQ(Local({"evaluate", path(), "--unlabelled", "5"}).exit_code, 0);
+}
+
 TEST_F(TumSequence, EvaluateNeedsPosesOfObjects) {
   std::filesystem::remove(folder_ / "object_poses.txt");
   const Finished dut = Local({"evaluate", path()});

@@ -107,7 +107,9 @@ TEST_F(ClusterSlam, PosesThatDoNotFitAreRefused) {
   });
   const absl::Status status = Open().status();
   EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
-  EXPECT_THAT(std::string(status.message()), HasSubstr("landmarks of moving clusters are seen"));
+  EXPECT_THAT(std::string(status.message()),
+              AllOf(HasSubstr("landmarks of moving clusters are seen"),
+                    HasSubstr("(--objects none goes on without")));
   EXPECT_TRUE(Open({.objects = LidarObjects::kNone}).ok());
   // Of the camera: as if it went backwards.
   for (int k = 0; k < kFrames; ++k) {

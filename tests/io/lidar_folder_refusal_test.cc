@@ -11,13 +11,22 @@ TEST(LidarFolder, MissingPointsAreRefusedUnlessAllowed) {
   TemporaryFolder folder;
   WriteExample(folder);
   std::filesystem::remove(folder / "points/0005.bin");
-  EXPECT_THAT(ErrorOf(folder), AllOf(HasSubstr("0005.bin"), HasSubstr("1 of 3 frames")));
+  EXPECT_THAT(ErrorOf(folder), AllOf(HasSubstr("0005.bin"), HasSubstr("1 of 3 frames"),
+                                     HasSubstr("(--allow-missing-points goes on without)")));
   LidarFolderOptions options;
   options.allow_missing_points = true;
   const auto dut = OpenLidarFolder(folder.path(), options);
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_TRUE(dut->frames.read(1)->points_S.empty());
   EXPECT_EQ(dut->frames.read(1)->motions.size(), 1u);
+}
+
+TEST(LidarFolder, SaysByWhatTheOtherFormatsAreTold) {
+  const TemporaryFolder folder;
+  for (const char* told : {"velodyne/NNNN", "depth.txt", "landmark_mapping.txt", "carla_sensor.csv",
+                           "*_camera_pose_log.csv"}) {
+    EXPECT_THAT(ErrorOf(folder), HasSubstr(told));
+  }
 }
 
 TEST(LidarFolder, RefusesTablesCutOffAtAnyByte) {

@@ -61,6 +61,9 @@ TEST_F(TumRgbdRefusal, SaysWhatIsWrongWhere) {
               HasSubstr("line 7, word 2: '0', expected an integer from 1"));
   EXPECT_THAT(ErrorWith("object_poses.txt", objects + "1305031102.1 7 0 0 0 0 0 0 1\n"),
               HasSubstr("line 7: the stamp"));
+  EXPECT_THAT(ErrorWith("object_poses.txt", objects + "1305031103 65536 0 0 0 0 0 0 1\n"),
+              HasSubstr("object_poses.txt, line 7, word 2: '65536', expected an integer from 1 to "
+                        "65535"));
   EXPECT_THAT(ErrorWith("camera.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
   EXPECT_THAT(ErrorWith("camera.txt", "1 0 3 4\n"),
               HasSubstr("word 2: '0', expected a number above"));

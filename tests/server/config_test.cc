@@ -82,6 +82,14 @@ TEST(ServerConfig, HelpNamesEverySettingAndAnExample) {
   }
 }
 
+TEST(ServerConfig, HelpListsWhatASettingMayBe) {
+  const std::string help = ReadCommandLine({"--help"}, {})->help;
+  for (const char* values : {"last or track: extrapolate", "convex_hull or voxels",
+                             "trace, debug, info, warning, error or off"}) {
+    EXPECT_NE(help.find(values), std::string::npos) << values;
+  }
+}
+
 TEST(ServerConfig, PrintConfigIsAskedFor) {
   EXPECT_TRUE(ReadCommandLine({"--print-config"}, {})->print_config);
 }
