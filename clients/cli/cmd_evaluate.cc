@@ -153,8 +153,8 @@ void AddEvaluate(Cli& cli) {
   command
       ->add_option("input", flags->spec,
                    "A folder of LiDAR scans with boxes (CARLA's, too), a\nKITTI, TUM RGB-D or "
-                   "ClusterSLAM sequence with poses of\nobjects, DynoSAM's logs, or sim:NAME: they "
-                   "know the truth")
+                   "ClusterSLAM sequence with poses of\nobjects, DynoSAM's logs, a recording whose "
+                   "frames give\nposes of objects, or sim:NAME, whose truth is exact")
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))

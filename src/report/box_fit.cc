@@ -39,7 +39,8 @@ std::map<ObjectId, BoxFit> BoxFitter::Fits() const {
   for (const auto& [id, seen] : seen_) {
     const auto centers = CentersAlongAxes(seen.object->map_O, Inverse(seen.T_O_B.Value()));
     if (centers[0].empty()) continue;
-    fits[id] = {seen.size_m, {SpanOf(centers[0]).length, SpanOf(centers[1]).length, SpanOf(centers[2]).length}};
+    fits[id] = {seen.size_m,
+                {SpanOf(centers[0]).length, SpanOf(centers[1]).length, SpanOf(centers[2]).length}};
   }
   return fits;
 }

@@ -1,4 +1,6 @@
 // How far from where it is predicted an object is said to be at most.
+#include "scene/position_bound.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "clearway/scene/scene_builder.h"
 #include "scene/object_motion.h"
-#include "scene/position_bound.h"
 #include "support/frames.h"
 
 namespace clearway {
