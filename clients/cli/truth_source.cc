@@ -31,7 +31,10 @@ TrueSource OfFolder(LidarFolder folder) {
 }
 
 // Reads every frame once: what comes later is the truth of what is predicted before.
-absl::StatusOr<TrueSource> OfRecording(const std::string& spec) {
+absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlags& flags) {
+  if (auto status = CheckSourceFlags(flags, spec, SourceFormat::kRecording); !status.ok()) {
+    return status;
+  }
   auto frames = OpenRecording(spec);
   if (!frames.ok()) return frames.status();
   LidarFolder told{*std::move(frames), {}, {}};
@@ -74,7 +77,7 @@ absl::StatusOr<TrueSource> OpenTrueSource(const std::string& spec, const SourceF
     return OfFolder(*std::move(folder));
   }
   if (!std::filesystem::exists(spec)) return absl::NotFoundError(spec + ": no such file");
-  if (KindOf(spec) == SourceKind::kRecording) return OfRecording(spec);
+  if (KindOf(spec) == SourceKind::kRecording) return OfRecording(spec, flags);
   return absl::InvalidArgumentError(absl::StrCat(spec, ": a map does not tell what happened"));
 }
 

@@ -116,6 +116,7 @@ std::optional<ScanUpdate> RayCaster::Cast(const VoxelGrid& grid, const RayCloud&
   });
   if (!impl_->MarkFree(grid, update)) return std::nullopt;
   impl_->MarkEnds(cloud, update);
+  if (update.keys().size() > kMaxScanBlocks) return std::nullopt;  // with those of ends
   return update;
 }
 

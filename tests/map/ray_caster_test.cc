@@ -81,6 +81,23 @@ TEST(RayCaster, RaysThroughTooManyBlocks) {
   }
 }
 
+// Rays of no length pass through nothing.
+TEST(RayCaster, EndsInTooManyBlocks) {
+  std::vector<Eigen::Vector3f> ends;
+  for (int x = 0; x < 1025; ++x) {
+    for (int y = 0; y < 1024; ++y) ends.push_back({8 * x + 0.5f, 8 * y + 0.5f, 0.5f});
+  }
+  const std::vector<RayEnd> kinds(ends.size(), RayEnd::kHit);
+  ThreadPool pool(2);
+  RayCaster dut(pool);
+  const auto cast = [&](std::size_t count) {
+    const std::span<const Eigen::Vector3f> some(ends.data(), count);
+    return dut.Cast(VoxelGrid(1), {some, std::span(kinds).first(count), some}, {});
+  };
+  EXPECT_FALSE(cast(kMaxScanBlocks + 1));
+  EXPECT_TRUE(cast(kMaxScanBlocks));
+}
+
 // Each sector has few enough, all of them have too many.
 TEST(RayCaster, SectorsTogetherPassThroughTooManyBlocks) {
   const VoxelGrid grid(0.1);
