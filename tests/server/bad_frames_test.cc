@@ -62,14 +62,6 @@ TEST_F(BadInput, Frames) {
        Code::kInvalidArgument, "frame.parts[0].whole_id"},
       {"points", [](auto& f) { f.mutable_points_m()->Resize(303, 0); }, Code::kResourceExhausted,
        "frame.points_m"},
-      {"rays through too much",
-       [](auto& f) {
-         for (int i = 0; i < 12; ++i) {
-           f.add_points_m(90'000), f.add_points_m(1'000 * i), f.add_points_m(500 * i);
-           f.add_labels(0);
-         }
-       },
-       Code::kResourceExhausted, "frame.points_m"},
       {"objects",
        [](auto& f) {
          for (int i = 2; i < 8; ++i) {
