@@ -128,7 +128,7 @@ absl::StatusOr<DynamicSpace> SceneBuilder::CastIntoStatic(const LabelledCloud& c
   std::optional<ScanUpdate> update = caster_.Cast(static_map_W, cloud.Rays(), params.rays);
   if (!update) {
     return absl::ResourceExhaustedError(absl::StrCat(
-        "points_m: the rays pass through more than ", kMaxScanBlocks, " blocks of ", kBlockSize,
+        "points_m: the rays touch more than ", kMaxScanBlocks, " blocks of ", kBlockSize,
         " voxels cubed, which is the limit; give the scene a max_range_m, or larger voxels"));
   }
   if (params.dynamic_life == Duration::zero()) {

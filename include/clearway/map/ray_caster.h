@@ -12,8 +12,9 @@
 
 namespace clearway {
 
-// The blocks that a cloud's rays may pass through, those where rays of very different directions
-// meet counted more than once. More would take gigabytes: a few rays of many kilometres do.
+// The blocks that a cloud's rays may pass through or end in, those where rays of very different
+// directions meet counted more than once. More would take gigabytes: a few rays of many kilometres
+// do.
 inline constexpr std::size_t kMaxScanBlocks = std::size_t{1} << 20;
 
 // Casts clouds, one after the other; keeps its memory from one to the next. One thread at a time.
@@ -27,7 +28,8 @@ class RayCaster {
 
   // The update of a map by a cloud: the same voxels as OctoMap's computeUpdate makes of it,
   // whatever the number of threads; grazing_m is not looked at. All points must be addressable in
-  // the grid. None if the rays pass through more than kMaxScanBlocks blocks.
+  // the grid. None if the rays pass through or end in more than kMaxScanBlocks
+  // blocks.
   std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
   // The same of that map, which the scan is going to update, with what RayOptions::grazing_m asks
   // for.
