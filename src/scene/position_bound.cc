@@ -116,8 +116,8 @@ PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual) {
 
   const double wilful_half_m = std::min(half_m, kWilful * usual_half_m);
   const double wilful_whole_m = std::min(whole_m, kWilful * usual_whole_m);
-  const double grown_m = std::clamp((wilful_whole_m - wilful_half_m) / 0.75,
-                                    kGrows * wilful_whole_m, wilful_whole_m);
+  const double grown_m =
+      std::clamp((wilful_whole_m - wilful_half_m) / 0.75, kGrows * wilful_whole_m, wilful_whole_m);
   const double noise_half_m = std::sqrt(half_m * half_m - wilful_half_m * wilful_half_m);
   const double noise_whole_m = std::sqrt(whole_m * whole_m - wilful_whole_m * wilful_whole_m);
   const double bound_whole_m = std::hypot(kOf95 * wilful_whole_m, kOf95Noise * noise_whole_m);

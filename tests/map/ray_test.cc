@@ -88,7 +88,8 @@ TEST(CastRays, OneOriginPerPoint) {
   const std::vector<Eigen::Vector3f> ends{{2.5f, 0.5f, 0.5f}, {2.5f, 9.5f, 0.5f}};
   const std::vector<Eigen::Vector3f> origins{{0.5f, 0.5f, 0.5f}, {0.5f, 9.5f, 0.5f}};
   const std::vector<RayEnd> kinds(2, RayEnd::kHit);
-  const ScanUpdate update = RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, origins}, {}).value();
+  const ScanUpdate update =
+      RayCaster(pool).Cast(VoxelGrid(1.0), {ends, kinds, origins}, {}).value();
   EXPECT_EQ(update.Find({0, 0, 0})->free.Count(), 2);
   EXPECT_EQ(update.Find({0, 1, 0})->free.Count(), 2);
 }

@@ -30,7 +30,8 @@ class RayCaster {
   // whatever the number of threads; grazing_m is not looked at. All points must be addressable in
   // the grid. None if the rays pass through or end in more than kMaxScanBlocks
   // blocks.
-  std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
+  std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud,
+                                 const RayOptions& options);
   // The same of that map, which the scan is going to update, with what RayOptions::grazing_m asks
   // for.
   std::optional<ScanUpdate> Cast(const VoxelMap& map, const RayCloud& cloud,

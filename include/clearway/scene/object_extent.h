@@ -24,13 +24,14 @@ struct ObjectExtent {
   Eigen::Vector3d center_O = Eigen::Vector3d::Zero();
 };
 
-// The object's size: the SpanOf the centres of its occupied voxels, at least a voxel each way, along
-// the axes of the smallest upright box around them. Points lie anywhere in their voxels, so that is
-// the best guess of how far apart the surfaces are, while the voxels' corners (Solid::box_O, what
-// collision checking uses) stick out of them. Its length, the longer side, points forwards if the
-// object moves. A given object's is the box around its solid. All zero for an object without an
-// occupied voxel. The smallest rectangle shares a side with the outline: Freeman and Shapira,
-// "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve", 1975.
+// The object's size: the SpanOf the centres of its occupied voxels, at least a voxel each way,
+// along the axes of the smallest upright box around them. Points lie anywhere in their voxels, so
+// that is the best guess of how far apart the surfaces are, while the voxels' corners
+// (Solid::box_O, what collision checking uses) stick out of them. Its length, the longer side,
+// points forwards if the object moves. A given object's is the box around its solid. All zero for
+// an object without an occupied voxel. The smallest rectangle shares a side with the outline:
+// Freeman and Shapira, "Determining the Minimum-Area Encasing Rectangle for an Arbitrary Closed
+// Curve", 1975.
 ObjectExtent ExtentOf(const MovingObject& object);
 
 // A part of an object (MovingObject::part_of), P being its frame.
