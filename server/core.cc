@@ -20,7 +20,7 @@ Ingestor::Options IngestorOptions(const ServerConfig& config) {
   Ingestor::Options options;
   options.scene = config.scene;
   options.frames = {config.limits.max_points_per_frame, config.limits.max_objects,
-                    config.limits.max_coordinate_m};
+                    config.limits.max_coordinate_m, config.limits.max_blocks};
   options.max_queued = config.limits.max_queued_frames;
   options.max_remembered = config.limits.max_remembered_answers;
   const int machine = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -20,7 +20,8 @@ struct Accepted {
 absl::StatusOr<Frame> FrameOf(const ServerCore& core, const v1::Frame& proto) {
   const ServerLimits& limits = core.config.limits;
   return ReadFrame("frame", proto,
-                   {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m});
+                   {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m,
+                    limits.max_blocks});
 }
 
 // Of PushFrame and PushFrames alike. push(Frame) puts a frame into the queue.

@@ -200,6 +200,8 @@ std::vector<Setting> LimitSettings() {
       CLEARWAY_LIMIT(max_points_per_frame, "points in a frame"),
       CLEARWAY_LIMIT(max_objects, "objects in the scene, motions and poses in a frame"),
       CLEARWAY_LIMIT(max_coordinate_m, "largest coordinate of a position"),
+      CLEARWAY_LIMIT(max_blocks,
+                     "blocks of 8 x 8 x 8 voxels in all maps together, of 1.3 to 3 KB each"),
       CLEARWAY_LIMIT(max_states_per_batch, "states in a check"),
       CLEARWAY_LIMIT(max_points_per_query, "points, cells, rays or poses in a query"),
       CLEARWAY_LIMIT(max_robots, "robots remembered"),

@@ -8,10 +8,12 @@
 #include <thread>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/scene/scene_builder.h"
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/evaluation_html.h"
+#include "cli/message.h"
 #include "cli/progress.h"
 #include "cli/told_frames.h"
 
@@ -81,7 +83,9 @@ absl::Status MakeScene(const TrueSource& source, const Flags& flags, const Termi
     if (!frame.ok()) return frame.status();
     const Frame told = teller.Tell(*frame);
     const auto report = builder.Apply(told);
-    if (!report.ok()) return report.status();
+    if (!report.ok()) {
+      return InContext(absl::StrCat("frame ", k, " of ", flags.spec), report.status());
+    }
     points += frame->points_S.size();
     after(k, *std::move(frame), told, *report, builder);
     progress.Update(k + 1, points);

@@ -25,6 +25,7 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_points_per_frame", l.max_points_per_frame},
           {"max_objects", l.max_objects},
           {"max_coordinate_m", l.max_coordinate_m},
+          {"max_blocks", l.max_blocks},
           {"max_states_per_batch", l.max_states_per_batch},
           {"max_points_per_query", l.max_points_per_query},
           {"max_robots", l.max_robots},

@@ -70,7 +70,10 @@ void Evaluator::AddObjects(const SceneSnapshot& scene) {
 Evaluation Evaluator::Result() && {
   found_.predictions = predictions_.Errors();
   found_.sizes = boxes_.Fits();
-  found_.ways = ways_.Result();
+  if (!ways_.ByObject().empty()) {
+    found_.ways = ways_.Result();
+    found_.ways_of = ways_.ByObject();
+  }
   if (unlabelled_) found_.unlabelled = unlabelled_->Result();
   if (judge_) {
     found_.fits = judge_->Fits();

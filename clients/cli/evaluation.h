@@ -45,7 +45,10 @@ struct Evaluation {
   std::optional<BoxResidue> residue;                     // of recorded boxes
   std::optional<Identities> identities;                  // where objects came back under new ids
   std::optional<Unlabelled> unlabelled;                  // where some were not labelled
-  std::vector<Confusion> ways;                           // by kWaysAhead
+  // By kWaysAhead: of the places that any object passes, and of those that each passes. Empty if it
+  // is not known how large objects are.
+  std::vector<Confusion> ways;
+  std::map<ObjectId, std::vector<Confusion>> ways_of;
 };
 
 // Why recorded boxes leave most of the static map unjudged.

@@ -96,11 +96,13 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
     if (growth != found.growth.end()) object["growth"] = ToJson(growth->second);
     const auto solids = found.solids.find(id);
     if (solids != found.solids.end()) object["solids"] = ToJson(solids->second);
+    const auto ways = found.ways_of.find(id);
+    if (ways != found.ways_of.end()) object["ways"] = ToJson(ways->second);
     json["objects"].push_back(object);
   }
   json["prediction"] = ToJson(Together(found.predictions));
   if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
-  json["ways"] = ToJson(found.ways);
+  if (!found.ways.empty()) json["ways"] = ToJson(found.ways);
   if (found.identities) {
     json["identities"] = {{"came_back", found.identities->came_back},
                           {"known_again", found.identities->known_again},

@@ -152,22 +152,40 @@ void PrintResidue(std::ostream& out, const BoxResidue& residue) {
       << kStaticNotKnown << ".\n";
 }
 
-void PrintWays(std::ostream& out, const std::vector<Confusion>& ways) {
-  out << "\nWhat is said of places that objects pass, in percent: where there is truly nothing, "
-         "and "
-         "in the\nmiddle of an object, be it one that nobody has seen yet.\n\n";
-  Table table(
-      {"ahead", "nothing: free", "occupied", "unknown", "object: free", "occupied", "unknown"});
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    std::vector<std::string> row = {absl::StrCat(ToSeconds(kWaysAhead[i]), " s")};
-    for (const Confusion::Counts& counts : {ways[i].truly_free, ways[i].truly_occupied}) {
-      for (const auto said : {Confusion::kFree, Confusion::kOccupied, Confusion::kUnknown}) {
-        row.push_back(TextOf(100 * Confusion::Share(counts, said), 2));
-      }
+// By what is truly there: what was said of it, in percent.
+void AddShares(const Confusion& confusion, std::vector<std::string>& row) {
+  for (const Confusion::Counts& counts : {confusion.truly_free, confusion.truly_occupied}) {
+    for (const auto said : {Confusion::kFree, Confusion::kOccupied, Confusion::kUnknown}) {
+      row.push_back(TextOf(100 * Confusion::Share(counts, said), 2));
     }
-    table.AddRow(row);
   }
-  out << table.ToString();
+}
+
+void PrintWays(std::ostream& out, const TrueSource& source, const Evaluation& found) {
+  constexpr std::size_t kOfObjects = 2;  // of kWaysAhead
+  const std::vector<std::string> shares = {"nothing: free", "occupied", "unknown",
+                                           "object: free",  "occupied", "unknown"};
+  const auto header = [&](std::vector<std::string> first) {
+    first.insert(first.end(), shares.begin(), shares.end());
+    return first;
+  };
+  out << "\nWhat is said of places that objects pass, in percent: where there is truly nothing, "
+         "and in the\nmiddle of an object, be it one that nobody has seen yet.\n\n";
+  Table whole(header({"ahead"}));
+  for (std::size_t i = 0; i < found.ways.size(); ++i) {
+    std::vector<std::string> row = {absl::StrCat(ToSeconds(kWaysAhead[i]), " s")};
+    AddShares(found.ways[i], row);
+    whole.AddRow(row);
+  }
+  out << whole.ToString() << "\nThe same of the places that each object passes, "
+      << ToSeconds(kWaysAhead[kOfObjects]) << " s ahead.\n\n";
+  Table by_object(header({"id", "what"}));
+  for (const auto& [id, ways] : found.ways_of) {
+    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id)};
+    AddShares(ways[kOfObjects], row);
+    by_object.AddRow(row);
+  }
+  out << by_object.ToString();
 }
 
 void PrintStatic(std::ostream& out, const StaticFit& fit) {
@@ -214,12 +232,12 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (found.fits.empty() && found.sizes.empty()) {
-    out << "\nSizes, accuracy, completeness, solids and residue are not known: the source tells "
-           "poses of objects\nbut no boxes.\n";
+    out << "\nSizes, accuracy, completeness, solids, residue and what is said of the places that "
+           "objects pass are not\nknown: the source tells poses of objects but no boxes.\n";
   }
   if (!found.solids.empty()) PrintSolids(out, source, found);
   if (!found.growth.empty()) PrintGrowth(out, source, found);
-  PrintWays(out, found.ways);
+  if (!found.ways.empty()) PrintWays(out, source, found);
   if (found.identities) PrintIdentities(out, *found.identities);
   if (found.unlabelled) PrintUnlabelled(out, *found.unlabelled);
   if (found.static_fit) PrintStatic(out, *found.static_fit);

@@ -38,15 +38,20 @@ absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlag
   auto frames = OpenRecording(spec);
   if (!frames.ok()) return frames.status();
   LidarFolder told{*std::move(frames), {}, {}};
+  SourceContent content;
   for (std::size_t k = 0; k < told.frames.frame_count; ++k) {
     const auto frame = told.frames.read(k);
     if (!frame.ok()) return frame.status();
+    content.has_parts |= !frame->parts.empty();
+    content.objects.insert(frame->labels.begin(), frame->labels.end());
     const int number = static_cast<int>(k);
     told.poses.push_back({number, frame->stamp, frame->T_W_S});
     for (const ObjectPose& pose : frame->poses) {
       told.boxes.push_back({number, pose.id, "", Eigen::Vector3d::Zero(), pose.T_W_B, -1});
     }
   }
+  content.objects.erase(content.objects.begin(), content.objects.upper_bound(kStaticLabel));
+  if (auto status = CheckSourceContent(flags, spec, content); !status.ok()) return status;
   if (told.boxes.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(
         spec,

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace clearway {
@@ -15,23 +17,28 @@ struct ThreadPool::State {
   std::mutex mutex;
   std::condition_variable work_ready;
   std::condition_variable work_done;
-  const Body* body = nullptr;
+  const Body* body = nullptr;  // of the loop at hand, as its size
   std::size_t size = 0;
   int generation = 0;
   int running = 0;
+  std::exception_ptr thrown;  // by the body
   bool stop = false;
   std::vector<std::thread> threads;
+
+  void RunShare(int worker, int workers);
 };
 
-namespace {
-
-void RunShare(const Body& body, std::size_t size, int worker, int workers) {
+void ThreadPool::State::RunShare(int worker, int workers) {
   const std::size_t begin = size * worker / workers;
   const std::size_t end = size * (worker + 1) / workers;
-  if (begin < end) body(worker, begin, end);
+  if (begin >= end) return;
+  try {
+    (*body)(worker, begin, end);
+  } catch (...) {
+    std::lock_guard lock(mutex);
+    if (thrown == nullptr) thrown = std::current_exception();
+  }
 }
-
-}  // namespace
 
 ThreadPool::ThreadPool(int threads) : threads_(threads), state_(std::make_unique<State>()) {
   for (int worker = 1; worker < threads_; ++worker) {
@@ -42,10 +49,8 @@ ThreadPool::ThreadPool(int threads) : threads_(threads), state_(std::make_unique
         state->work_ready.wait(lock, [&] { return state->stop || state->generation != seen; });
         if (state->stop) return;
         seen = state->generation;
-        const Body& body = *state->body;
-        const std::size_t size = state->size;
         lock.unlock();
-        RunShare(body, size, worker, threads);
+        state->RunShare(worker, threads);
         lock.lock();
         if (--state->running == 0) state->work_done.notify_one();
       }
@@ -63,7 +68,7 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::ParallelFor(std::size_t size, const Body& body) {
-  if (threads_ > 1) {
+  {
     std::lock_guard lock(state_->mutex);
     state_->body = &body;
     state_->size = size;
@@ -71,11 +76,12 @@ void ThreadPool::ParallelFor(std::size_t size, const Body& body) {
     ++state_->generation;
   }
   state_->work_ready.notify_all();
-  RunShare(body, size, 0, threads_);
-  if (threads_ > 1) {
+  state_->RunShare(0, threads_);
+  {
     std::unique_lock lock(state_->mutex);
     state_->work_done.wait(lock, [&] { return state_->running == 0; });
   }
+  if (state_->thrown != nullptr) std::rethrow_exception(std::exchange(state_->thrown, nullptr));
 }
 
 void ThreadPool::ParallelChunks(std::size_t size, std::size_t chunk, const Body& body) {

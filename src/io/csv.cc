@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/file.h"
+#include "io/utf8.h"
 
 namespace clearway {
 namespace {
@@ -153,7 +154,7 @@ std::string CsvTable::Where(std::size_t row, std::size_t column) const {
 
 double CsvRow::Number(std::size_t column) {
   double value = 0;
-  if (!ParseWhole(Text(column), value) || !std::isfinite(value)) Fail(column, "a finite number");
+  if (!ParseWhole(Cell(column), value) || !std::isfinite(value)) Fail(column, "a finite number");
   return value;
 }
 
@@ -167,16 +168,21 @@ double CsvRow::NumberWithin(std::size_t column, double limit) {
 
 std::int64_t CsvRow::Integer(std::size_t column, std::int64_t min, std::int64_t max) {
   std::int64_t value = 0;
-  if (!ParseWhole(Text(column), value) || value < min || value > max) {
+  if (!ParseWhole(Cell(column), value) || value < min || value > max) {
     Fail(column, absl::StrCat("an integer from ", min, " to ", max));
   }
   return value;
 }
 
+const std::string& CsvRow::Text(std::size_t column) {
+  if (!IsUtf8(Cell(column))) Fail(column, "text in UTF-8");
+  return Cell(column);
+}
+
 void CsvRow::Fail(std::size_t column, const std::string& expected) {
   if (!status_.ok()) return;
   status_ = absl::InvalidArgumentError(absl::StrCat(table_.Where(row_, column), ": '",
-                                                    Excerpt(Text(column)), "' is not ", expected));
+                                                    Excerpt(Cell(column)), "' is not ", expected));
 }
 
 }  // namespace clearway

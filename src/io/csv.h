@@ -48,11 +48,13 @@ class CsvRow {
   double NumberWithin(std::size_t column, double limit);
   // An integer in [min, max].
   std::int64_t Integer(std::size_t column, std::int64_t min, std::int64_t max);
-  const std::string& Text(std::size_t column) const { return table_.Text(row_, column); }
+  // In UTF-8.
+  const std::string& Text(std::size_t column);
 
   const absl::Status& status() const { return status_; }
 
  private:
+  const std::string& Cell(std::size_t column) const { return table_.Text(row_, column); }
   void Fail(std::size_t column, const std::string& expected);
 
   const CsvTable& table_;

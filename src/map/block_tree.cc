@@ -46,14 +46,46 @@ void BlockTree::IndexRoots() {
   }
 }
 
-const BlockTree::Upper* BlockTree::FindRoot(BlockKey root_key) const {
-  if (roots_.empty()) return nullptr;
+// All at once: each moves those behind it.
+void BlockTree::AddRoots(std::vector<BlockKey> root_keys) {
+  if (root_keys.empty()) return;
+  std::sort(root_keys.begin(), root_keys.end());
+  root_keys.erase(std::unique(root_keys.begin(), root_keys.end()), root_keys.end());
+  const std::size_t before = roots_.size();
+  for (const BlockKey key : root_keys) roots_.push_back({key, nullptr});
+  std::inplace_merge(roots_.begin(), roots_.begin() + before, roots_.end(),
+                     [](const Root& a, const Root& b) { return a.key < b.key; });
+  IndexRoots();
+}
+
+void BlockTree::AddRootsFor(std::span<const BlockKey> keys, std::span<const LeafPtr> leaves) {
+  std::vector<BlockKey> missing;
+  const BlockKey* last = nullptr;  // many in a row share a root
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (leaves[i] == nullptr || (last != nullptr && Share(*last, keys[i], kRootBits))) continue;
+    last = &keys[i];
+    if (PlaceOfRoot(RootKey(*last)) < 0) missing.push_back(RootKey(*last));
+  }
+  AddRoots(std::move(missing));
+}
+
+void BlockTree::RemoveEmptyRoots() {
+  std::erase_if(roots_, [](const Root& root) { return root.node == nullptr; });
+  IndexRoots();
+}
+
+std::int32_t BlockTree::PlaceOfRoot(BlockKey root_key) const {
+  if (roots_.empty()) return -1;
   const std::size_t mask = root_index_.size() - 1;
   for (std::size_t place = HashOf(root_key) & mask;; place = (place + 1) & mask) {
     const std::int32_t i = root_index_[place];
-    if (i < 0) return nullptr;
-    if (roots_[i].key == root_key) return roots_[i].node.get();
+    if (i < 0 || roots_[i].key == root_key) return i;
   }
+}
+
+const BlockTree::Upper* BlockTree::FindRoot(BlockKey root_key) const {
+  const std::int32_t place = PlaceOfRoot(root_key);
+  return place < 0 ? nullptr : roots_[place].node.get();
 }
 
 const BlockTree::Lower* BlockTree::LowerIn(const Upper* upper, BlockKey key) {
@@ -192,24 +224,17 @@ int BlockTree::PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key, 
   return growth;
 }
 
-void BlockTree::PutLeaf(BlockKey key, LeafPtr leaf) {
-  const BlockKey root_key = RootKey(key);
-  auto root = std::lower_bound(roots_.begin(), roots_.end(), root_key,
-                               [](const Root& r, BlockKey k) { return r.key < k; });
-  if (root == roots_.end() || root->key != root_key) {
-    root = roots_.insert(root, {root_key, nullptr});
-    IndexRoots();
-  }
-  size_ += PutInto(root->node, key, std::move(leaf));
-  if (root->node != nullptr) return;
-  roots_.erase(root);
-  IndexRoots();
+bool BlockTree::PutLeaf(BlockKey key, LeafPtr&& leaf) {
+  Root& root = roots_[PlaceOfRoot(RootKey(key))];
+  size_ += PutInto(root.node, key, std::move(leaf));
+  return root.node == nullptr;
 }
 
 void BlockTree::Put(BlockKey key, const VoxelBlock& block) {
   LeafPtr leaf = new Leaf;
   leaf->block = block;
-  PutLeaf(key, std::move(leaf));
+  if (PlaceOfRoot(RootKey(key)) < 0) AddRoots({RootKey(key)});
+  if (PutLeaf(key, std::move(leaf))) RemoveEmptyRoots();
 }
 
 // The blocks are made in parallel and put in their places by the caller alone. Both wait for memory
@@ -229,14 +254,17 @@ void BlockTree::PutAll(std::span<const BlockKey> keys, ThreadPool& pool, const M
       if (make(worker, i, before, leaf->block)) made[i] = std::move(leaf);
     }
   });
+  AddRootsFor(keys, made);
+  bool any_empty = false;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     constexpr std::size_t kAhead = 8;
     if (i + kAhead < keys.size()) {
       Prefetch(made[i + kAhead].get(), 64 + 2 * sizeof(BlockMask));
       Prefetch(old[i + kAhead], 64);  // its count of references
     }
-    if (made[i] != nullptr) PutLeaf(keys[i], std::move(made[i]));
+    if (made[i] != nullptr) any_empty |= PutLeaf(keys[i], std::move(made[i]));
   }
+  if (any_empty) RemoveEmptyRoots();
 }
 
 }  // namespace clearway

@@ -64,6 +64,8 @@ struct RayCaster::Impl {
   RaySectors sectors;
   GrazedVoxels grazed;
 
+  std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud,
+                                 const RayOptions& options);
   // False, and nothing is marked, if it would be too much.
   bool MarkFree(const VoxelGrid& grid, ScanUpdate& update);
   void MarkEnds(const RayCloud& cloud, ScanUpdate& update);
@@ -98,6 +100,21 @@ void RayCaster::Impl::MarkEnds(const RayCloud& cloud, ScanUpdate& update) {
   }
 }
 
+std::optional<ScanUpdate> RayCaster::Impl::Cast(const VoxelGrid& grid, const RayCloud& cloud,
+                                                const RayOptions& options) {
+  Prepare(grid, cloud, options, pool, rays);
+  sectors.Clear();
+  const bool distinct = options.discretize && cloud.origins.size() == 1;
+  ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
+    sectors.Add({OriginOf(cloud, i), rays.ends[i]}, rays.sectors[i]);
+  });
+  ScanUpdate update;
+  if (!MarkFree(grid, update)) return std::nullopt;
+  MarkEnds(cloud, update);
+  if (update.keys().size() > kMaxScanBlocks) return std::nullopt;  // with those of ends
+  return update;
+}
+
 RayCaster::RayCaster(ThreadPool& pool) : impl_(std::make_unique<Impl>(pool)) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
@@ -105,19 +122,13 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 std::optional<ScanUpdate> RayCaster::Cast(const VoxelGrid& grid, const RayCloud& cloud,
                                           const RayOptions& options) {
-  ScanUpdate update;
-  if (cloud.ends.empty()) return update;
-  PreparedRays& rays = impl_->rays;
-  Prepare(grid, cloud, options, impl_->pool, rays);
-  impl_->sectors.Clear();
-  const bool distinct = options.discretize && cloud.origins.size() == 1;
-  ForEachRayToWalk(cloud, rays, distinct, [&](std::size_t i) {
-    impl_->sectors.Add({OriginOf(cloud, i), rays.ends[i]}, rays.sectors[i]);
-  });
-  if (!impl_->MarkFree(grid, update)) return std::nullopt;
-  impl_->MarkEnds(cloud, update);
-  if (update.keys().size() > kMaxScanBlocks) return std::nullopt;  // with those of ends
-  return update;
+  if (cloud.ends.empty()) return ScanUpdate();
+  try {
+    return impl_->Cast(grid, cloud, options);
+  } catch (...) {  // no memory: what it keeps for the next cloud is half done
+    *this = RayCaster(impl_->pool);
+    throw;
+  }
 }
 
 std::optional<ScanUpdate> RayCaster::Cast(const VoxelMap& map, const RayCloud& cloud,

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "absl/container/flat_hash_set.h"
+#include "report/box_limit.h"
 
 namespace clearway {
 namespace {
@@ -40,7 +41,7 @@ BoxResidue BoxResidueScore::Of(const VoxelMap& map_W) const {
     const Aabb middle_B = MiddleOf(box, voxel_m);
     if ((middle_B.min.array() > middle_B.max.array()).any()) continue;
     const Aabb box_W = Transformed(box.T_W_B, middle_B);
-    if (!grid.Addressable(box_W.min) || !grid.Addressable(box_W.max)) continue;
+    if (!CanLookThrough(grid, box_W)) continue;
     const Pose T_B_W = Inverse(box.T_W_B);
     const VoxelKey min = grid.KeyOf(box_W.min), max = grid.KeyOf(box_W.max);
     for (VoxelKey key = min; key.z <= max.z; ++key.z) {

@@ -3,56 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <variant>
+
+#include "report/box_limit.h"
+#include "report/voxel_marks.h"
 
 namespace clearway {
 namespace {
-
-// Marks of the voxels of a box in W.
-class VoxelMarks {
- public:
-  VoxelMarks(const VoxelGrid& grid, const Aabb& box_W)
-      : grid_(grid), min_(grid.KeyOf(box_W.min)), max_(grid.KeyOf(box_W.max)) {
-    marks_.resize(Extent(min_.x, max_.x) * Extent(min_.y, max_.y) * Extent(min_.z, max_.z));
-  }
-
-  // By where their centre is.
-  template <class Holds>
-  void MarkIf(Holds&& holds) {
-    ForEach([&](VoxelKey key) { marks_[IndexOf(key)] = holds(grid_.CenterOf(key)); });
-  }
-  bool At(VoxelKey key) const { return marks_[IndexOf(key)]; }
-  bool AtOrBeside(VoxelKey key) const {
-    for (int neighbor = 0; neighbor < 27; ++neighbor) {
-      const VoxelKey beside{key.x + neighbor % 3 - 1, key.y + neighbor / 3 % 3 - 1,
-                            key.z + neighbor / 9 - 1};
-      if (Holds(beside) && At(beside)) return true;
-    }
-    return false;
-  }
-  template <class Visit>
-  void ForEach(Visit&& visit) const {
-    for (VoxelKey key = min_; key.z <= max_.z; ++key.z) {
-      for (key.y = min_.y; key.y <= max_.y; ++key.y) {
-        for (key.x = min_.x; key.x <= max_.x; ++key.x) visit(key);
-      }
-    }
-  }
-
- private:
-  static std::size_t Extent(std::int32_t from, std::int32_t to) { return to - from + 1; }
-  std::size_t IndexOf(VoxelKey key) const {
-    return ((key.z - min_.z) * Extent(min_.y, max_.y) + (key.y - min_.y)) * Extent(min_.x, max_.x) +
-           (key.x - min_.x);
-  }
-  bool Holds(VoxelKey key) const {
-    return key.x >= min_.x && key.x <= max_.x && key.y >= min_.y && key.y <= max_.y &&
-           key.z >= min_.z && key.z <= max_.z;
-  }
-
-  VoxelGrid grid_;
-  VoxelKey min_, max_;
-  std::vector<char> marks_;
-};
 
 bool BodyHolds(const Body& body, const Eigen::Vector3d& p_B) {
   return std::ranges::any_of(body.parts, [&](const BodyPart& part) {
@@ -86,37 +43,64 @@ struct Compared {
   std::vector<Pose> T_W_B;  // of these, in truth
 };
 
-SolidOverlap OverlapOf(const Compared& c) {
+VoxelMarks PredictedOf(const Compared& c, const Aabb& box_W) {
   const VoxelMap& map_O = c.object.map_O;
-  Aabb box_W = Transformed(c.T_W_O, c.object.solid->box_O);
-  std::vector<Pose> T_B_W;
-  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
-    box_W.Extend(Transformed(c.T_W_B[i], c.bodies[i].body->BoxB()));
-    T_B_W.push_back(Inverse(c.T_W_B[i]));
-  }
-  const auto any_body = [&](const Eigen::Vector3d& p_W, auto holds) {
-    for (std::size_t i = 0; i < c.bodies.size(); ++i) {
-      if ((c.bodies[i].*holds)(T_B_W[i] * p_W)) return true;
-    }
-    return false;
-  };
-  VoxelMarks predicted(map_O.grid(), box_W), truly = predicted, seen = predicted;
+  const Solid& solid = *c.object.solid;
   const Pose T_O_W = Inverse(c.T_W_O);
   const bool filled = c.object.FillsSolid(c.mode);
-  predicted.MarkIf([&](const Eigen::Vector3d& p_W) {
-    const Eigen::Vector3d p_O = T_O_W * p_W;
-    if (!c.object.solid->box_O.Contains(p_O)) return false;
-    return filled ? Contains(c.object.solid->shape, p_O)
-                  : map_O.State(map_O.grid().KeyOf(p_O)) == VoxelState::kOccupied;
-  });
-  truly.MarkIf([&](const Eigen::Vector3d& p_W) { return any_body(p_W, &SeenBody::Holds); });
-  seen.MarkIf([&](const Eigen::Vector3d& p_W) { return any_body(p_W, &SeenBody::HoldsSeen); });
+  VoxelMarks marks(map_O.grid(), box_W);
+  const auto* const hull = std::get_if<ConvexPolytope>(&solid.shape);
+  if (filled && hull != nullptr) {
+    marks.MarkHull(*hull->mesh, T_O_W);
+  } else {
+    marks.MarkIf([&](const Eigen::Vector3d& p_W) {
+      const Eigen::Vector3d p_O = T_O_W * p_W;
+      if (!solid.box_O.Contains(p_O)) return false;
+      return filled ? Contains(solid.shape, p_O)
+                    : map_O.State(map_O.grid().KeyOf(p_O)) == VoxelState::kOccupied;
+    });
+  }
+  return marks;
+}
+
+// Each solid is looked through on its own, and beside each of its voxels for the other: they may be
+// far apart. Of the bodies, only what lies about the predicted solid may make that right.
+SolidOverlap OverlapOf(const Compared& c) {
+  const VoxelGrid& grid = c.object.map_O.grid();
+  const Aabb predicted_box_W = Transformed(c.T_W_O, c.object.solid->box_O);
+  Aabb seen_box_W, bodies_box_W;
+  std::vector<Pose> T_B_W;
+  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+    seen_box_W.Extend(Transformed(c.T_W_B[i], c.bodies[i].seen_B->box_O));
+    bodies_box_W.Extend(Transformed(c.T_W_B[i], c.bodies[i].body->BoxB()));
+    T_B_W.push_back(Inverse(c.T_W_B[i]));
+  }
+  const Aabb beside_W = predicted_box_W.Padded(grid.resolution_m());
+  if (!CanLookThrough(grid, beside_W)) return {};
+  if (!seen_box_W.Empty() && !CanLookThrough(grid, seen_box_W)) return {};
+
+  const auto in_any_body = [&](auto holds) {
+    return [&, holds](const Eigen::Vector3d& p_W) {
+      for (std::size_t i = 0; i < c.bodies.size(); ++i) {
+        if ((c.bodies[i].*holds)(T_B_W[i] * p_W)) return true;
+      }
+      return false;
+    };
+  };
+  const VoxelMarks predicted = PredictedOf(c, predicted_box_W);
+  VoxelMarks truly(
+      grid, Aabb{beside_W.min.cwiseMax(bodies_box_W.min), beside_W.max.cwiseMin(bodies_box_W.max)});
+  VoxelMarks seen(grid, seen_box_W);
+  truly.MarkIf(in_any_body(&SeenBody::Holds));
+  seen.MarkIf(in_any_body(&SeenBody::HoldsSeen));
   SolidOverlap overlap;
-  predicted.ForEach([&](VoxelKey key) {
-    overlap.predicted += predicted.At(key);
-    overlap.predicted_right += predicted.At(key) && truly.AtOrBeside(key);
-    overlap.seen += seen.At(key);
-    overlap.seen_found += seen.At(key) && predicted.AtOrBeside(key);
+  predicted.ForEachMarked([&](VoxelKey key) {
+    ++overlap.predicted;
+    overlap.predicted_right += truly.AtOrBeside(key);
+  });
+  seen.ForEachMarked([&](VoxelKey key) {
+    ++overlap.seen;
+    overlap.seen_found += predicted.AtOrBeside(key);
   });
   return overlap;
 }

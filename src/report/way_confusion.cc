@@ -5,6 +5,7 @@
 
 #include "absl/container/flat_hash_map.h"
 #include "clearway/scene/timed_scene.h"
+#include "report/box_limit.h"
 
 namespace clearway {
 namespace {
@@ -13,6 +14,8 @@ constexpr double kNear_m = 0.3;
 constexpr double kMiddle = 0.6;     // of a box's edges
 constexpr std::int32_t kEvery = 4;  // voxels along each axis
 constexpr Duration kStep = std::chrono::milliseconds(100);
+
+using Ids = absl::InlinedVector<ObjectId, 2>;
 
 // A true box, placed.
 struct Placed {
@@ -38,17 +41,22 @@ class Boxes {
     }
   }
 
-  bool HoldInMiddle(const Eigen::Vector3d& p_W) const {
-    return std::ranges::any_of(placed_, [&](const Placed& placed) {
-      return placed.near_W.Contains(p_W) && placed.middle_B.Contains(placed.T_B_W * p_W);
-    });
+  // Those in the middle of which it lies.
+  Ids Around(const Eigen::Vector3d& p_W) const {
+    Ids ids;
+    for (const Placed& placed : placed_) {
+      if (placed.near_W.Contains(p_W) && placed.middle_B.Contains(placed.T_B_W * p_W)) {
+        ids.push_back(placed.id);
+      }
+    }
+    return ids;
   }
   bool AreNear(const Eigen::Vector3d& p_W) const {
     return std::ranges::any_of(placed_, [&](const Placed& placed) {
       return placed.near_W.Contains(p_W) && placed.near_B.Contains(placed.T_B_W * p_W);
     });
   }
-  bool KnowAll(const absl::InlinedVector<ObjectId, 2>& ids) const {
+  bool KnowAll(const Ids& ids) const {
     return std::ranges::all_of(ids, [&](ObjectId id) {
       return std::ranges::find(placed_, id, &Placed::id) != placed_.end();
     });
@@ -82,29 +90,24 @@ Confusion::Said SaidBy(SpaceStatus status) {
   return status == SpaceStatus::kOccupied ? Confusion::kOccupied : Confusion::kUnknown;
 }
 
-Confusion::Counts CountsOf(const SceneSnapshot& scene, Time t,
-                           const std::vector<Eigen::Vector3d>& points_W) {
-  const std::vector<Time> times(points_W.size(), t);
-  std::vector<PointOccupancy> answers(points_W.size());
-  TimedScene(scene, t, t).At(points_W, times, answers);
-  Confusion::Counts counts{};
-  for (const PointOccupancy& answer : answers) ++counts[SaidBy(answer.status)];
-  return counts;
-}
+// Places of which it is known what is there at a time.
+struct KnownPlaces {
+  std::vector<Eigen::Vector3d> centers_W;
+  std::vector<Ids> ids;  // of the objects that each counts for
+  std::vector<bool> occupied;
+
+  void Add(const Eigen::Vector3d& center_W, Ids the_ids, bool is_occupied) {
+    centers_W.push_back(center_W);
+    ids.push_back(std::move(the_ids));
+    occupied.push_back(is_occupied);
+  }
+};
 
 }  // namespace
 
 double Confusion::Share(const Counts& counts, Said said) {
   return static_cast<double>(counts[said]) /
          static_cast<double>(counts[kFree] + counts[kOccupied] + counts[kUnknown]);
-}
-
-Confusion& Confusion::operator+=(const Confusion& other) {
-  for (const Said said : {kFree, kOccupied, kUnknown}) {
-    truly_free[said] += other.truly_free[said];
-    truly_occupied[said] += other.truly_occupied[said];
-  }
-  return *this;
 }
 
 WayConfusion::WayConfusion(Truth truth, std::vector<Duration> ahead)
@@ -116,7 +119,7 @@ void WayConfusion::FindPlaces(const VoxelGrid& grid, Time first) {
   for (Time t = first; t <= truth_.end; t += kStep) {
     const Boxes boxes(truth_, t);
     for (const Placed& placed : boxes.placed()) {
-      if (!grid.Addressable(placed.near_W.min) || !grid.Addressable(placed.near_W.max)) continue;
+      if (!CanLookThrough(grid, placed.near_W)) continue;
       ForEachVoxel(grid, placed, [&](VoxelKey key) {
         Ids& ids = passed_by[key];
         if (std::ranges::find(ids, placed.id) == ids.end()) ids.push_back(placed.id);
@@ -130,24 +133,35 @@ void WayConfusion::Add(const SceneSnapshot& scene, const Eigen::Vector3d& sensor
   if (!has_places_) FindPlaces(scene.static_map_W.grid(), scene.stamp);
   for (std::size_t i = 0; i < ahead_.size(); ++i) {
     const Time t = scene.stamp + ahead_[i];
-    if (t <= truth_.end) confusions_[i] += At(scene, t, sensor_W);
+    if (t <= truth_.end) CountAt(i, scene, sensor_W);
   }
 }
 
-Confusion WayConfusion::At(const SceneSnapshot& scene, Time t,
-                           const Eigen::Vector3d& sensor_W) const {
+void WayConfusion::CountAt(std::size_t i, const SceneSnapshot& scene,
+                           const Eigen::Vector3d& sensor_W) {
+  const Time t = scene.stamp + ahead_[i];
   const Boxes boxes(truth_, t);
   const double range_m = scene.params.rays.max_range_m;
-  std::vector<Eigen::Vector3d> free_W, occupied_W;
+  KnownPlaces known;
   for (const auto& [center_W, passed_by] : places_) {
     if (range_m >= 0 && (center_W - sensor_W).norm() > range_m) continue;
-    if (boxes.HoldInMiddle(center_W)) {
-      occupied_W.push_back(center_W);
+    if (Ids around = boxes.Around(center_W); !around.empty()) {
+      known.Add(center_W, std::move(around), true);
     } else if (boxes.KnowAll(passed_by) && !boxes.AreNear(center_W)) {
-      free_W.push_back(center_W);
+      known.Add(center_W, passed_by, false);
     }
   }
-  return {CountsOf(scene, t, free_W), CountsOf(scene, t, occupied_W)};
+  const std::size_t size = known.centers_W.size();
+  std::vector<PointOccupancy> answers(size);
+  TimedScene(scene, t, t).At(known.centers_W, std::vector<Time>(size, t), answers);
+  for (std::size_t place = 0; place < size; ++place) {
+    const auto truly = known.occupied[place] ? &Confusion::truly_occupied : &Confusion::truly_free;
+    const Confusion::Said said = SaidBy(answers[place].status);
+    ++(confusions_[i].*truly)[said];
+    for (const ObjectId id : known.ids[place]) {
+      ++(by_object_.try_emplace(id, ahead_.size()).first->second[i].*truly)[said];
+    }
+  }
 }
 
 }  // namespace clearway

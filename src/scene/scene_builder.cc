@@ -62,6 +62,16 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
   return absl::OkStatus();
 }
 
+absl::Status CheckSize(const VoxelMap& static_map_W, const ObjectMap& objects,
+                       const FrameLimits& limits) {
+  std::size_t blocks = static_map_W.blocks().size();
+  for (const auto& [id, object] : objects) blocks += object->map_O.blocks().size();
+  if (blocks <= limits.max_blocks) return absl::OkStatus();
+  return absl::ResourceExhaustedError(absl::StrCat(
+      "points_m: the scene's maps would hold ", blocks, " blocks; the limit is ", limits.max_blocks,
+      "; give the scene a keep_distance_m or a higher limit max_blocks"));
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
@@ -112,6 +122,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
     report.objects_reidentified = JoinSeenAgain(objects, frame.stamp, scene_.params, *pool_);
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
+  if (absl::Status status = CheckSize(static_map_W, objects, limits_); !status.ok()) return status;
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
@@ -126,9 +137,10 @@ absl::StatusOr<DynamicSpace> SceneBuilder::CastIntoStatic(const LabelledCloud& c
                                                           VoxelMap& static_map_W) {
   const SceneParams& params = scene_.params;
   std::optional<ScanUpdate> update = caster_.Cast(static_map_W, cloud.Rays(), params.rays);
-  if (!update) {
+  const std::size_t most_blocks = std::min(kMaxScanBlocks, limits_.max_blocks);
+  if (!update || update->keys().size() > most_blocks) {
     return absl::ResourceExhaustedError(absl::StrCat(
-        "points_m: the rays touch more than ", kMaxScanBlocks, " blocks of ", kBlockSize,
+        "points_m: the rays touch more than ", most_blocks, " blocks of ", kBlockSize,
         " voxels cubed, which is the limit; give the scene a max_range_m, or larger voxels"));
   }
   if (params.dynamic_life == Duration::zero()) {

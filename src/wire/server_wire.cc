@@ -10,6 +10,7 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_points_per_frame(limits.max_points_per_frame);
   proto->set_max_objects(limits.max_objects);
   proto->set_max_coordinate_m(limits.max_coordinate_m);
+  proto->set_max_blocks(limits.max_blocks);
   proto->set_max_states_per_batch(limits.max_states_per_batch);
   proto->set_max_points_per_query(limits.max_points_per_query);
   proto->set_max_robots(limits.max_robots);
@@ -38,6 +39,7 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_points_per_frame = proto.max_points_per_frame();
   limits.max_objects = proto.max_objects();
   limits.max_coordinate_m = proto.max_coordinate_m();
+  limits.max_blocks = proto.max_blocks();
   limits.max_states_per_batch = proto.max_states_per_batch();
   limits.max_points_per_query = proto.max_points_per_query();
   limits.max_robots = proto.max_robots();

@@ -58,6 +58,24 @@ TEST_P(ThreadPoolTest, RunsTheFirstShareInTheCaller) {
   EXPECT_EQ(first, std::this_thread::get_id());
 }
 
+TEST_P(ThreadPoolTest, ThrowsToItsCallerWhatABodyThrows) {
+  ThreadPool dut(GetParam());
+  for (int thrower = 0; thrower < GetParam(); ++thrower) {
+    std::atomic<int> done = 0;
+    const auto loop = [&] {
+      dut.ParallelFor(100, [&](int worker, std::size_t, std::size_t) {
+        if (worker == thrower) throw std::bad_alloc();
+        ++done;
+      });
+    };
+    EXPECT_THROW(loop(), std::bad_alloc);
+    EXPECT_EQ(done, GetParam() - 1);
+  }
+  std::atomic<int> visits = 0;
+  dut.ParallelChunks(100, 10, [&](int, std::size_t, std::size_t) { ++visits; });
+  EXPECT_EQ(visits, 10);  // nothing is left of what was thrown
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolTest, testing::Values(1, 2, 5));
 
 }  // namespace

@@ -67,6 +67,24 @@ TEST(CsvRow, ReadsNumbers) {
   EXPECT_TRUE(dut.status().ok());
 }
 
+TEST(CsvRow, ReadsTextInUtf8Alone) {
+  for (const char* text : {"Car", "", "Fußgänger", "歩行者", "\xF4\x8F\xBF\xBF"}) {
+    const auto table = CsvTable::Parse("t.csv", std::string("a\n") + text + "\n");
+    CsvRow dut(*table, 0);
+    EXPECT_EQ(dut.Text(0), text);
+    EXPECT_TRUE(dut.status().ok()) << text;
+  }
+  const char* const bad[] = {"Fu\xDFg\xE4nger",  "\x80",         "\xC3",
+                             "\xC0\xAF",         "\xED\xA0\x80", "\xE0\x9F\xBF",
+                             "\xF4\x90\x80\x80", "\xFF"};
+  for (const char* text : bad) {
+    const auto table = CsvTable::Parse("t.csv", std::string("a\n") + text + "\n");
+    CsvRow dut(*table, 0);
+    dut.Text(0);
+    EXPECT_THAT(dut.status().message(), HasSubstr("is not text in UTF-8")) << text;
+  }
+}
+
 TEST(CsvRow, KeepsTheFirstErrorWithItsPlace) {
   const auto table = CsvTable::Parse("t.csv", "a,b,c\n1.5x,7,nan\n");
   ASSERT_TRUE(table.ok());

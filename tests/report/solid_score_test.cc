@@ -76,6 +76,30 @@ TEST(SolidScore, HalfOfAnObjectIsRightButNotAll) {
   EXPECT_TRUE(std::isnan(overlaps[1].Recall())) << "beyond the end";
 }
 
+// Boxes of recordings may jump: what lies between the two solids costs nothing.
+TEST(SolidScore, FarFromTheTruthNothingIsRight) {
+  const SolidOverlap dut = AfterASecond(5'000);
+  EXPECT_EQ(dut.predicted, 20 * 10 * 10);
+  EXPECT_EQ(dut.seen, 20 * 10 * 10);
+  EXPECT_EQ(dut.predicted_right, 0);
+  EXPECT_EQ(dut.seen_found, 0);
+}
+
+TEST(SolidScore, ASolidTooLargeToCompareIsLeftOut) {
+  SceneSnapshot scene = TestScene();
+  auto object = BoxObject(7, {1, 1, 1}, Pose::Translation(-2, 0, 0), scene.stamp);
+  for (const double end_m : {-200.0, 200.0}) {
+    object->map_O.Set(object->map_O.grid().KeyOf({end_m, end_m, end_m}),
+                      object->map_O.model().clamp_max);
+  }
+  object->solid = SolidOf(object->map_O);
+  scene.objects = {object};
+  SolidScore dut(OneBox(), scene.stamp, {seconds(0)});
+  dut.Add(scene, AllOfIt());
+  EXPECT_EQ(dut.overlaps().at(7)[0].predicted, 0);
+  EXPECT_EQ(dut.overlaps().at(7)[0].seen, 0);
+}
+
 // A part that no ray has met is not missed.
 TEST(SolidScore, WhatWasNotSeenDoesNotCount) {
   MetSurfaces met(OneBox());

@@ -106,6 +106,28 @@ TEST(WayConfusion, IsSilentOfWhatNobodyKnows) {
   EXPECT_EQ(confusion.truly_occupied, Counts{});
 }
 
+// A second box, 4 m to the side, has a way of its own.
+TEST(WayConfusion, TellsOfEachObject) {
+  Truth truth = Moving();
+  truth.boxes = [boxes = truth.boxes](Time t) {
+    std::vector<TrueBox> two = boxes(t);
+    two.push_back({4, {2, 2, 2}, Pose::Translation(0, 4, 1)});
+    return two;
+  };
+  WayConfusion dut(truth, {Duration::zero()});
+  SceneSnapshot scene = FreeScene();
+  scene.static_map_W.Set(scene.static_map_W.grid().KeyOf({6.05, 0.05, 0.85}), 4000);
+  dut.Add(scene, Eigen::Vector3d::Zero());
+  ASSERT_EQ(dut.ByObject().size(), 2u);
+  const Confusion moving = dut.ByObject().at(3)[0], standing = dut.ByObject().at(4)[0];
+  EXPECT_EQ(moving.truly_occupied, Single(Confusion::kFree, 3 * 3 * 3));
+  EXPECT_EQ(moving.truly_free[Confusion::kOccupied], 1);
+  EXPECT_EQ(moving.truly_free[Confusion::kFree], 24 * 5 * 4 - 1);
+  EXPECT_EQ(standing.truly_occupied[Confusion::kOccupied], 0);
+  EXPECT_GT(standing.truly_occupied[Confusion::kUnknown], 0);  // the free space ends before it
+  EXPECT_EQ(standing.truly_free, Counts{});
+}
+
 // An object that goes on as it did is where it is predicted.
 TEST(WayConfusion, TellsOfPredictions) {
   ThreadPool pool(1);

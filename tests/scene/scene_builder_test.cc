@@ -78,6 +78,45 @@ TEST_F(SceneBuilderTest, RaysThroughTooManyBlocksAreRefusedAndChangeNothing) {
   EXPECT_TRUE(limited.Apply(far).ok());
 }
 
+TEST_F(SceneBuilderTest, MoreBlocksThanTheSceneMayHoldAreRefusedAndChangeNothing) {
+  FrameLimits limits;
+  limits.max_blocks = 20;
+  SceneBuilder dut = Builder({}, limits);
+  Frame near = FrameAt(1);
+  AddPoint(near, kStaticLabel, {3, 0, 0});
+  AddPoint(near, 7, {0, 3, 0});
+  ASSERT_TRUE(dut.Apply(near).ok());
+  const std::string hash = dut.Publish()->Hash();
+  const std::pair<float, const char*> cases[] = {
+      {12, "points_m: the scene's maps would hold 2"},  // 15 and those that are there
+      {20, "points_m: the rays touch more than 20 blocks"}};
+  for (const auto& [far_m, message] : cases) {
+    for (const ObjectId label : {kStaticLabel, 7}) {
+      Frame far = FrameAt(2);
+      AddPoint(far, label, {0, -far_m, 0});
+      const absl::Status refused = dut.Apply(far).status();
+      EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+      EXPECT_THAT(refused.message(), testing::HasSubstr(message));
+      EXPECT_EQ(dut.Publish()->Hash(), hash);
+    }
+  }
+}
+
+// As many blocks as points, of an object too: what each costs does not grow with their number.
+TEST_F(SceneBuilderTest, PointsStrewnOverAllTheWorld) {
+  testing_support::Random random(5);
+  SceneBuilder dut = Builder();
+  Frame frame = FrameAt(1);
+  for (int i = 0; i < 20'000; ++i) {
+    const Eigen::Vector3d p = random.Vector(90'000);
+    AddPoint(frame, i % 2 == 0 ? kStaticLabel : 7, p);
+    frame.origins_S.push_back(p.cast<float>());
+  }
+  ASSERT_TRUE(dut.Apply(frame).ok());
+  EXPECT_EQ(dut.Publish()->static_map_W.blocks().size(), 10'000u);
+  EXPECT_EQ(dut.Publish()->FindObject(7)->map_O.blocks().size(), 10'000u);
+}
+
 TEST_F(SceneBuilderTest, AStaticPointHitsAndItsRayClears) {
   SceneBuilder dut = Builder();
   Frame frame = FrameAt(0);

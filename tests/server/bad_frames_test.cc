@@ -69,6 +69,14 @@ TEST_F(BadInput, Frames) {
          }
        },
        Code::kResourceExhausted, "frame.labels"},
+      {"blocks", [](auto& f) { f.set_points_m(0, 5'000); }, Code::kResourceExhausted,
+       "frame.points_m"},
+      {"blocks of rays",
+       [](auto& f) {
+         f.set_points_m(0, 9e4);
+         f.set_points_m(1, 9e4);
+       },
+       Code::kResourceExhausted, "frame.points_m"},
       {"half a turn",
        [](auto& f) {
          f.mutable_motions(0)->mutable_world_motion()->mutable_rotation()->set_w(0);

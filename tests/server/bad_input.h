@@ -42,6 +42,7 @@ inline ServerConfig TightConfig() {
   ServerConfig config = testing_support::SmallConfig();
   config.limits.max_points_per_frame = 100;
   config.limits.max_objects = 4;
+  config.limits.max_blocks = 100;
   config.limits.max_states_per_batch = 10;
   config.limits.max_points_per_query = 1000;
   config.limits.max_message_bytes = 1 << 16;

@@ -226,6 +226,7 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   ServerLimits& l = info.limits;
   for (std::uint64_t* limit : {&l.max_message_bytes,
                                &l.max_points_per_frame,
+                               &l.max_blocks,
                                &l.max_objects,
                                &l.max_states_per_batch,
                                &l.max_points_per_query,

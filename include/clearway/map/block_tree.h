@@ -129,7 +129,8 @@ class BlockTree {
     return branch.occupied != 0;
   }
   using LeafPtr = boost::intrusive_ptr<Leaf>;
-  void PutLeaf(BlockKey key, LeafPtr leaf);
+  // Its root must be there. Returns whether nothing remains in it.
+  bool PutLeaf(BlockKey key, LeafPtr&& leaf);
   template <class Child>
   static int PutInto(boost::intrusive_ptr<Branch<Child>>& node, BlockKey key, LeafPtr&& leaf);
   static int PutInto(LeafPtr& place, BlockKey key, LeafPtr&& leaf);
@@ -148,6 +149,8 @@ class BlockTree {
   template <class Node, class Visit>
   static void VisitDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
 
+  // Where in roots_; -1 for nowhere.
+  std::int32_t PlaceOfRoot(BlockKey root_key) const;
   const Upper* FindRoot(BlockKey root_key) const;
   static const Lower* LowerIn(const Upper* upper, BlockKey key);
   // leaves[i] is that of keys[i], null if there is none (with an occupied voxel).
@@ -155,6 +158,11 @@ class BlockTree {
   void FindLeaves(std::span<const BlockKey> keys, const Leaf** leaves) const;
   template <bool kOccupied>
   void FindBlocks(std::span<const BlockKey> keys, const VoxelBlock** blocks) const;
+  // Roots for these root keys, of which none is there yet; some may be given twice.
+  void AddRoots(std::vector<BlockKey> root_keys);
+  // Those that are missing to put a leaf at its key, where there is one.
+  void AddRootsFor(std::span<const BlockKey> keys, std::span<const LeafPtr> leaves);
+  void RemoveEmptyRoots();
   void IndexRoots();
 
   std::vector<Root> roots_;  // ascending keys

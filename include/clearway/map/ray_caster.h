@@ -14,7 +14,7 @@ namespace clearway {
 
 // The blocks that a cloud's rays may pass through or end in, those where rays of very different
 // directions meet counted more than once. More would take gigabytes: a few rays of many kilometres
-// do.
+// do, or a cloud strewn over them. Scattered, a block takes up to 3 KB in the map.
 inline constexpr std::size_t kMaxScanBlocks = std::size_t{1} << 20;
 
 // Casts clouds, one after the other; keeps its memory from one to the next. One thread at a time.

@@ -21,6 +21,7 @@ struct BoxResidue {
 // fills: an occupied voxel there is a trail. It counts where the voxel's centre lay in a box, at
 // least a voxel from its faces and kGround_m above its bottom, as boxes are not exact and the
 // ground is below. Not where an object's box was last: nobody knows whether it still stands there.
+// Nor in boxes of more than 2^24 voxels.
 // Beside the boxes the true static world is not known, so nothing else of the map is judged. One
 // thread.
 class BoxResidueScore {

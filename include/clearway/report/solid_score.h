@@ -33,7 +33,8 @@ struct SolidOverlap {
 // fills (params.solid), where the scene predicts it. Seen is what lies both in the body and in the
 // convex hull of the voxels that rays met of it: of what no ray has met nothing is known. Parts
 // of a body that the scene does not have as objects are taken for the body's own. Voxels
-// are as large as those of the object's map, in W. One thread.
+// are as large as those of the object's map, in W. A prediction is left out if its box, or that
+// around what was seen of the bodies, holds more than 2^24 of them. One thread.
 class SolidScore {
  public:
   // Predictions of times after `end`, and of those when a body's place is not known, are left out.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "absl/container/inlined_vector.h"
@@ -20,8 +21,6 @@ struct Confusion {
 
   // 0 to 1; NaN of nothing.
   static double Share(const Counts& counts, Said said);
-
-  Confusion& operator+=(const Confusion& other);
 };
 
 // Asks versions of a scene about a grid over the ways of all objects of a sequence: every fourth
@@ -31,7 +30,7 @@ struct Confusion {
 // occupied in the middle six tenths of a box, as no object fills its box; truly free farther than
 // 0.3 m from every box, as boxes are not exact, if there is a box of every object that ever holds
 // it. Else it is not counted, nor is what lies within 0.3 m of a box's bottom, the ground, or out
-// of the sensor's range. One thread.
+// of the sensor's range, or in boxes of more than 2^24 voxels. One thread.
 class WayConfusion {
  public:
   WayConfusion(Truth truth, std::vector<Duration> ahead);
@@ -41,6 +40,9 @@ class WayConfusion {
 
   // In the order of `ahead`. Times after the truth's end are left out.
   const std::vector<Confusion>& Result() const { return confusions_; }
+  // The same by object: an occupied place counts for those in the middle of which it lies, a free
+  // one for each that passes it.
+  const std::map<ObjectId, std::vector<Confusion>>& ByObject() const { return by_object_; }
 
  private:
   using Ids = absl::InlinedVector<ObjectId, 2>;
@@ -50,13 +52,15 @@ class WayConfusion {
     Ids passed_by;
   };
   void FindPlaces(const VoxelGrid& grid, Time first);
-  Confusion At(const SceneSnapshot& scene, Time t, const Eigen::Vector3d& sensor_W) const;
+  // Counts what the scene says of the places of which something is known, for ahead_[i].
+  void CountAt(std::size_t i, const SceneSnapshot& scene, const Eigen::Vector3d& sensor_W);
 
   Truth truth_;
   std::vector<Duration> ahead_;
   std::vector<Place> places_;  // found with the first version
   bool has_places_ = false;
   std::vector<Confusion> confusions_;
+  std::map<ObjectId, std::vector<Confusion>> by_object_;
 };
 
 }  // namespace clearway

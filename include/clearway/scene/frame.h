@@ -71,11 +71,13 @@ struct Frame {
 // Turns beyond this have no direction that one could trust.
 inline constexpr double kMaxTurn_rad = 0.9 * std::numbers::pi;
 
-// Bounds on what a frame may hold.
+// Bounds on what a frame may hold, and the scene after it.
 struct FrameLimits {
   std::size_t max_points = 2'000'000;
   std::size_t max_objects = 4'096;
   double max_coordinate_m = 100'000;  // of positions; also bounded by what the grid can address
+  // Of 8 x 8 x 8 voxels, in all maps of the scene together: 1.3 KB each, up to 3 KB if scattered.
+  std::size_t max_blocks = std::size_t{1} << 22;
   bool operator==(const FrameLimits&) const = default;
 };
 

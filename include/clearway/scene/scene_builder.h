@@ -53,8 +53,8 @@ class SceneBuilder {
 
   // Applies the frame whole, or refuses it whole and changes nothing: what Validate(frame) refuses;
   // FAILED_PRECONDITION for a stamp before the scene's newest, and for parts of parts;
-  // RESOURCE_EXHAUSTED for more objects than FrameLimits allows, and for rays that touch more than
-  // kMaxScanBlocks blocks; INVALID_ARGUMENT for poses outside the addressable space.
+  // RESOURCE_EXHAUSTED for more objects or blocks than FrameLimits allows, and for rays that touch
+  // more than kMaxScanBlocks blocks; INVALID_ARGUMENT for poses outside the addressable space.
   absl::StatusOr<FrameReport> Apply(const Frame& frame);
 
   // The scene so far as an immutable version. Versions count from 1; without a change since, the

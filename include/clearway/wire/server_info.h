@@ -15,6 +15,7 @@ struct ServerLimits {
   std::uint64_t max_points_per_frame = 2'000'000;
   std::uint64_t max_objects = 4'096;
   double max_coordinate_m = 100'000;
+  std::uint64_t max_blocks = 1 << 22;  // of 8 x 8 x 8 voxels, in all maps of the scene
   std::uint64_t max_states_per_batch = 20'000;
   std::uint64_t max_points_per_query = 4'000'000;  // points, cells, rays or poses
   std::uint64_t max_robots = 64;

@@ -1,0 +1,244 @@
+// clearway evaluate as a program, on simulations and on recordings.
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "absl/strings/str_format.h"
+#include "clients/subprocess.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::HasSubstr;
+
+Finished Clearway(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), CLEARWAY_BINARY);
+  return RunProgram(arguments);
+}
+
+// A LiDAR folder of 12 frames: a wall, and object 1, which is measured at (10, 0, 0) and has a box
+// there, but in frame 6 elsewhere.
+class StrangeBoxes {
+ public:
+  StrangeBoxes(double size_m, double jump_m) {
+    constexpr int kFrames = 12;
+    constexpr char kPose[] = "1,0,0,%g,0,1,0,0,0,0,1,0\n";
+    std::string poses = "frame,T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n";
+    std::string objects =
+        "frame,track,type,l,w,h,n_points,T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n";
+    for (int k = 0; k < kFrames; ++k) {
+      poses += absl::StrFormat("%d,", k) + absl::StrFormat(kPose, 0.0);
+      objects += absl::StrFormat("%d,1,Car,%g,%g,2,9,", k, size_m, size_m) +
+                 absl::StrFormat(kPose, k == 6 ? 10 + jump_m : 10);
+      WritePoints(absl::StrFormat("%04d.bin", k));
+    }
+    folder_.Write("poses.csv", poses);
+    folder_.Write("objects.csv", objects);
+  }
+
+  std::string path() const { return folder_.path(); }
+
+ private:
+  void WritePoints(const std::string& name) {
+    std::filesystem::create_directories(folder_.path() / "points");
+    std::ofstream out(folder_.path() / "points" / name, std::ios::binary);
+    const auto write = [&out](float x, float y, std::int16_t label) {
+      const float xyz[] = {x, y, 0};
+      out.write(reinterpret_cast<const char*>(xyz), sizeof(xyz));
+      out.write(reinterpret_cast<const char*>(&label), sizeof(label));
+    };
+    for (int i = -20; i < 20; ++i) {
+      write(30, 0.2f * i, 0);
+      write(9, 0.05f * i, 1);
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+// What is too large to look at is left out of the tables, and takes no time.
+TEST(Evaluate, BoxesThatJumpOrAreHuge) {
+  for (const auto& [size_m, jump_m] : {std::pair(4.4, 500.0), {4.4, 90'000.0}, {600.0, 0.0}}) {
+    SCOPED_TRACE(testing::Message() << "size " << size_m << ", jump " << jump_m);
+    const StrangeBoxes folder(size_m, jump_m);
+    const Finished dut = Clearway({"evaluate", folder.path(), "--json"});
+    ASSERT_EQ(dut.exit_code, 0) << dut.err;
+    const auto json = nlohmann::json::parse(dut.out);
+    EXPECT_GT(json["objects"][0]["prediction"][0]["count"], 0);
+    EXPECT_EQ(json.contains("ways"), size_m < 100);
+  }
+}
+
+TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
+  const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "30", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  ASSERT_FALSE(json["objects"].empty());
+  for (const auto& object : json["objects"]) {
+    const auto& ahead = object["prediction"];
+    ASSERT_EQ(ahead.size(), 4u);
+    EXPECT_EQ(ahead[0]["ahead_s"], 0.5);
+    ASSERT_GT(ahead[0]["count"], 10) << object;
+    EXPECT_GE(ahead[0]["p95_m"], ahead[0]["median_m"]) << object;
+    EXPECT_LE(ahead[0]["median_m"], ahead[1]["median_m"]) << object;
+  }
+  const Finished noisy =
+      Clearway({"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
+  const auto with_noise = nlohmann::json::parse(noisy.out);
+  EXPECT_GT(with_noise["objects"][0]["prediction"][0]["median_m"],
+            json["objects"][0]["prediction"][0]["median_m"]);
+  const Finished brief = Clearway({"evaluate", "sim:small", "--frames", "3", "--json"});
+  const auto too_short = nlohmann::json::parse(brief.out)["objects"][0]["prediction"][0];
+  EXPECT_EQ(too_short["count"], 0);
+  EXPECT_TRUE(too_short["median_m"].is_null());
+}
+
+TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
+  const Finished dut =
+      Clearway({"evaluate", "sim:small", "--frames", "30", "--motion", "track", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  for (const auto& object : json["objects"]) {
+    EXPECT_EQ(object["reconstruction"]["completeness"], 1) << object;
+    EXPECT_LT(object["reconstruction"]["accuracy_m"], 0.05) << object;
+    EXPECT_EQ(object["solids"][1]["ahead_s"], 1);
+    EXPECT_EQ(object["size"]["true_m"].size(), 3u);
+    EXPECT_GT(object["size"]["worst_difference_m"], 0);
+    EXPECT_EQ(object["ways"].size(), 5u);
+    EXPECT_LE(object["ways"][2]["truly_occupied"]["occupied"],
+              json["ways"][2]["truly_occupied"]["occupied"]);
+  }
+  EXPECT_GT(json["solids"][1]["f_score"], 0.8);
+  EXPECT_EQ(json["static"]["residual_voxels"], 0);
+  EXPECT_EQ(json["static"]["free_precision"], 1);
+  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "3"});
+  for (const char* told : {"predictions", "covered", "F-scores", "precision", "nothing static",
+                           "map / box", "places that each object passes"}) {
+    EXPECT_THAT(text.out, HasSubstr(told));
+  }
+  EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
+}
+
+// Of the drift of the simulated SLAM hardly anything is left.
+TEST(Evaluate, MapsOfMendedSensorPoses) {
+  const auto residual = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(),
+                 {"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
+    const Finished dut = Clearway(flags);
+    EXPECT_EQ(dut.exit_code, 0) << dut.err;
+    return nlohmann::json::parse(dut.out)["static"]["residual_voxels"].get<int>();
+  };
+  EXPECT_LT(2 * residual({"--sensor-error", "0.29", "--sensor-error-deg", "2.1"}), residual({}));
+}
+
+TEST(Evaluate, OnAPageThatNeedsNothingElse) {
+  const TemporaryFolder folder;
+  const std::string page = folder / "small.html";
+  const Finished dut =
+      Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const std::string html = BytesOf(page);
+  for (const char* part : {"<!doctype html>", "<svg", "maps grow", "map / box", "</html>"}) {
+    EXPECT_THAT(html, HasSubstr(part));
+  }
+  const std::string image = "src='data:image/png;base64,";
+  EXPECT_NE(html.find(image, html.find(image) + 1), std::string::npos);  // two
+  EXPECT_EQ(html.find("src='http"), std::string::npos);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  const Finished nowhere =
+      Clearway({"evaluate", "sim:small", "--frames", "2", "--html", folder / "missing/small.html"});
+  EXPECT_EQ(nowhere.exit_code, 1);
+  EXPECT_THAT(nowhere.err, HasSubstr("missing/small.html"));
+}
+
+TEST(Evaluate, WithWrongLabels) {
+  const auto p95_m = [](const std::string& share) {
+    const Finished dut =
+        Clearway({"evaluate", "sim:small", "--frames", "30", "--wrong-labels", share, "--json"});
+    const auto json = nlohmann::json::parse(dut.out);
+    return json["objects"][0]["reconstruction"]["p95_m"].get<double>();
+  };
+  EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
+}
+
+TEST(Evaluate, WithMasksThatAreTooLarge) {
+  const auto worst_m = [](const std::string& degrees) {
+    const Finished dut =
+        Clearway({"evaluate", "sim:small", "--frames", "10", "--mask-bleed", degrees, "--json"});
+    const auto json = nlohmann::json::parse(dut.out);
+    return json["objects"][0]["size"]["worst_difference_m"].get<double>();
+  };
+  EXPECT_GT(worst_m("2"), worst_m("0") + 0.2);
+}
+
+TEST(Evaluate, WithoutLabels) {
+  const auto unlabelled = [](const std::string& life) {
+    const Finished dut = Clearway({"evaluate", "sim:street", "--frames", "40", "--unlabelled",
+                                   "1,2,3", "--dynamic-life", life, "--json"});
+    return nlohmann::json::parse(dut.out)["unlabelled"];
+  };
+  const auto without = unlabelled("0"), with = unlabelled("0.5");
+  EXPECT_LT(without["occupied_at_once"], 0.5) << without;
+  EXPECT_GT(with["occupied_at_once"], 0.8) << with;
+  EXPECT_LT(with["mean_trail_voxels"], without["mean_trail_voxels"]) << with;
+  EXPECT_GT(with["dynamic_voxels"], 0);
+  EXPECT_EQ(without["dynamic_voxels"], 0);
+  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1"});
+  EXPECT_THAT(text.out, HasSubstr("movers that were not labelled"));
+}
+
+TEST(Evaluate, WhatIsKnownAgain) {
+  const auto identities = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"evaluate", "sim:occlusions", "--seed", "5", "--frames", "60",
+                                 "--forget", "0.5", "--motion", "track", "--json"});
+    return nlohmann::json::parse(Clearway(flags).out)["identities"];
+  };
+  const auto without = identities({}), with = identities({"--reidentify"});
+  EXPECT_GE(without["came_back"], 3);
+  EXPECT_EQ(without["known_again"], 0);
+  EXPECT_EQ(with["came_back"], without["came_back"]);
+  EXPECT_EQ(with["known_again"], with["came_back"]);
+  EXPECT_EQ(with["wrong"], 0);
+}
+
+TEST(Evaluate, OnlyWhatTellsTheTruth) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "drive.cwr";
+  const Finished missing = Clearway({"evaluate", recording});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("drive.cwr: no such file"));
+  Clearway({"simulate", "small", "--out", recording, "--frames", "1"});
+  const Finished dut = Clearway({"evaluate", recording});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("drive.cwr: no frame gives the pose of an object"));
+  const Finished other = Clearway({"evaluate", recording, "--unlabelled", "77"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("drive.cwr has no object 77; it has 1"));
+}
+
+TEST(Evaluate, ARecordingByThePosesThatItGives) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "drive.cwr";
+  Clearway({"simulate", "small", "--out", recording, "--frames", "12", "--objects", "poses"});
+  const Finished dut = Clearway({"evaluate", recording, "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const auto json = nlohmann::json::parse(dut.out);
+  EXPECT_THAT(json["truth"], HasSubstr("poses of objects that the recording gives"));
+  ASSERT_FALSE(json["objects"].empty());
+  for (const auto& object : json["objects"]) {
+    EXPECT_GT(object["prediction"][0]["count"], 0) << object;
+    EXPECT_EQ(object["growth"].size(), 12u);
+    EXPECT_FALSE(object.contains("reconstruction"));
+    EXPECT_FALSE(object.contains("ways"));
+  }
+  EXPECT_FALSE(json.contains("ways"));
+  EXPECT_THAT(Clearway({"evaluate", recording}).out, HasSubstr("objects pass are not\nknown"));
+}
+
+}  // namespace
+}  // namespace clearway
