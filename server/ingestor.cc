@@ -1,6 +1,7 @@
 #include "server/ingestor.h"
 
 #include <exception>
+#include <new>
 
 #include "absl/strings/str_cat.h"
 #include "spdlog/spdlog.h"
@@ -130,9 +131,14 @@ Ingestor::Answer Ingestor::Do(Job& job) {
     job.ack.reached = AckLevel::kApplied;
     versions_.Publish(std::move(scene));
     return job.ack;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("a change failed: no memory");
+    return WithReason(absl::ResourceExhaustedError("the server has no memory for the change"),
+                      "NO_MEMORY");
   } catch (const std::exception& e) {
     spdlog::error("a change failed: {}", e.what());
-    return absl::InternalError("the server failed to apply the change");
+    return WithReason(absl::InternalError("the server failed to apply the change"),
+                      "CHANGE_FAILED");
   }
 }
 

@@ -63,9 +63,9 @@ absl::StatusOr<PushAck> AnswerOf(const ServerCore& core, const Accepted& accepte
     return PushAck{{scene->version, scene->stamp}, AckLevel::kAccepted, {}, ticket.repeated};
   }
   Ingestor::Answer answer = Ingestor::Wait(ticket, gone);
-  // What the scene refuses names a field of the frame.
-  if (!answer.ok()) return WithFieldPrefix("frame.", answer.status());
-  return answer;
+  // What the scene refuses names a field of the frame; what has a reason is the server's own.
+  const bool names_field = !answer.ok() && ReasonOf(answer.status()).empty();
+  return names_field ? WithFieldPrefix("frame.", answer.status()) : answer;
 }
 
 // The answers that a push stream still owes, in order; written by a thread of its own, so that

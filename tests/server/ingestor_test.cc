@@ -72,6 +72,15 @@ TEST_F(IngestorTest, AnAnswerNamesTheFirstVersionWithTheFrame) {
 
 std::atomic<int> alarms = 0;
 
+TEST_F(IngestorTest, AChangeWithoutMemoryIsRefusedAndTheWriterGoesOn) {
+  const auto ticket = dut_->Apply([](SceneBuilder&) -> absl::Status { throw std::bad_alloc(); });
+  ASSERT_TRUE(ticket.ok());
+  const absl::Status refused = Ingestor::Wait(*ticket, kNever).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(ReasonOf(refused), "NO_MEMORY");
+  EXPECT_TRUE(Push(Numbered(1, 1)).ok());
+}
+
 // Else it kept a processor from who asks until the kernel's next tick.
 TEST_F(IngestorTest, TheWriterIsInterruptedWhileItApplies) {
   // After this its alarm is there, and with it the handler.
