@@ -109,6 +109,10 @@ absl::StatusOr<CsvTable> CsvTable::Parse(const std::string& name, const std::str
   if (!scanner.Next(table.header_)) return fail(1, scanner.error());
   std::set<std::string> names;
   for (const std::string& column : table.header_) {
+    if (double number; ParseWhole(column, number)) {
+      return fail(1, absl::StrCat("the header line seems missing: '", Excerpt(column),
+                                  "' is a number, not the name of a column"));
+    }
     if (!names.insert(column).second) {
       return fail(1, absl::StrCat("column ", Excerpt(column), " occurs twice"));
     }
@@ -175,7 +179,11 @@ std::int64_t CsvRow::Integer(std::size_t column, std::int64_t min, std::int64_t 
 }
 
 const std::string& CsvRow::Text(std::size_t column) {
-  if (!IsUtf8(Cell(column))) Fail(column, "text in UTF-8");
+  constexpr std::size_t kMostBytes = 200;
+  if (!IsPlainText(Cell(column))) Fail(column, "text in UTF-8 without control characters");
+  if (Cell(column).size() > kMostBytes) {
+    Fail(column, absl::StrCat("text of at most ", kMostBytes, " bytes"));
+  }
   return Cell(column);
 }
 

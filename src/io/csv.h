@@ -48,7 +48,7 @@ class CsvRow {
   double NumberWithin(std::size_t column, double limit);
   // An integer in [min, max].
   std::int64_t Integer(std::size_t column, std::int64_t min, std::int64_t max);
-  // In UTF-8.
+  // At most 200 bytes of UTF-8 without control characters.
   const std::string& Text(std::size_t column);
 
   const absl::Status& status() const { return status_; }

@@ -11,7 +11,9 @@ absl::StatusOr<std::string> ReadWholeFile(const std::filesystem::path& path,
                                           std::uint64_t max_bytes) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
+    const bool exists = std::filesystem::exists(path, error);
+    return absl::NotFoundError(
+        absl::StrCat(path.string(), exists ? ": is not a file" : ": no such file"));
   }
   const std::uint64_t size = std::filesystem::file_size(path, error);
   if (error) {

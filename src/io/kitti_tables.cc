@@ -126,7 +126,7 @@ absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
       KittiBox box;
       box.frame = frame;
       box.track = line.Integer(1, 0);
-      if (!IsUtf8(line.Text(2))) line.Fail(2, "text in UTF-8");
+      if (!IsPlainText(line.Text(2))) line.Fail(2, "text in UTF-8 without control characters");
       box.type = line.Text(2);
       box.size_m = {line.Number(12), line.Number(11), line.Number(10)};
       for (std::size_t i = 10; i <= 12; ++i) {

@@ -75,15 +75,17 @@ absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
 absl::Status CheckPointFiles(const OpenScans& open) {
   std::size_t missing = 0;
   Path first;
+  std::error_code error;
   for (const RecordedPose& pose : open.poses) {
     const Path path = open.scans.points_of(pose.frame);
-    std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) continue;
     if (missing++ == 0) first = path;
   }
   if (missing == 0) return absl::OkStatus();
+  const bool exists = std::filesystem::exists(first, error);
   return absl::NotFoundError(absl::StrCat(
-      first.string(), ": no such file; ", missing, " of ", open.poses.size(),
+      first.string(), exists ? ": is not a file; " : ": no such file; ", missing, " of ",
+      open.poses.size(),
       " frames have a pose but no file of points (--allow-missing-points goes on without)"));
 }
 

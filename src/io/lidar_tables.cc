@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // KITTI's rate, 10 Hz
 constexpr std::int64_t kMaxFrame = 99'999'999;
+constexpr double kFarthest_m = 1e6;
 
 using PoseColumns = std::array<std::size_t, 12>;
 
@@ -44,7 +45,7 @@ absl::StatusOr<std::vector<std::size_t>> FindColumns(const CsvTable& table,
 absl::StatusOr<Pose> ReadPose(const CsvTable& table, std::size_t row, const PoseColumns& columns) {
   CsvRow reader(table, row);
   Eigen::Matrix<double, 3, 4> matrix;
-  for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = reader.Number(columns[i]);
+  for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = reader.NumberWithin(columns[i], kFarthest_m);
   if (!reader.status().ok()) return reader.status();
   return PoseOfMatrix(matrix, absl::StrCat(table.Where(row), ", columns T00 to T22"));
 }
@@ -71,7 +72,9 @@ absl::StatusOr<RecordedBox> ReadBox(const CsvTable& table, std::size_t row,
   box.frame = static_cast<int>(reader.Integer(columns.fields[0], 0, kMaxFrame));
   box.id = static_cast<ObjectId>(reader.Integer(columns.fields[1], 1, kMaxId));
   box.type = reader.Text(columns.fields[2]);
-  for (int i = 0; i < 3; ++i) box.size_m[i] = reader.Number(columns.fields[3 + i]);
+  for (int i = 0; i < 3; ++i) {
+    box.size_m[i] = reader.NumberWithin(columns.fields[3 + i], kFarthest_m);
+  }
   box.n_points = static_cast<int>(reader.Integer(columns.fields[6], 0, kMaxId));
   if (!reader.status().ok()) return reader.status();
   if ((box.size_m.array() <= 0).any()) {

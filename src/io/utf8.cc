@@ -1,5 +1,6 @@
 #include "io/utf8.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -21,6 +22,11 @@ bool IsUtf8(std::string_view bytes) {
     bytes.remove_prefix(length);
   }
   return true;
+}
+
+bool IsPlainText(std::string_view bytes) {
+  const auto controls = [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; };
+  return std::ranges::none_of(bytes, controls) && IsUtf8(bytes);
 }
 
 }  // namespace clearway

@@ -1,19 +1,14 @@
 #include "clearway/report/box_residue.h"
 
 #include <algorithm>
-#include <array>
 
-#include "absl/container/flat_hash_set.h"
-#include "report/box_limit.h"
+#include "absl/container/flat_hash_map.h"
+#include "report/box_voxels.h"
 
 namespace clearway {
 namespace {
 
 Aabb BoxB(const TrueBox& box) { return {-0.5 * box.size_m, 0.5 * box.size_m}; }
-
-bool Holds(const TrueBox& box, const Eigen::Vector3d& p_W, double padding_m) {
-  return BoxB(box).Padded(padding_m).Contains(Inverse(box.T_W_B) * p_W);
-}
 
 // Without what is near its faces; may be empty.
 Aabb MiddleOf(const TrueBox& box, double voxel_m) {
@@ -36,29 +31,26 @@ void BoxResidueScore::Add(Time stamp) {
 BoxResidue BoxResidueScore::Of(const VoxelMap& map_W) const {
   const VoxelGrid& grid = map_W.grid();
   const double voxel_m = grid.resolution_m();
-  absl::flat_hash_set<VoxelKey> passed;
+  absl::flat_hash_map<BlockKey, BlockMask> passed;
   for (const TrueBox& box : boxes_) {
-    const Aabb middle_B = MiddleOf(box, voxel_m);
-    if ((middle_B.min.array() > middle_B.max.array()).any()) continue;
-    const Aabb box_W = Transformed(box.T_W_B, middle_B);
-    if (!CanLookThrough(grid, box_W)) continue;
-    const Pose T_B_W = Inverse(box.T_W_B);
-    const VoxelKey min = grid.KeyOf(box_W.min), max = grid.KeyOf(box_W.max);
-    for (VoxelKey key = min; key.z <= max.z; ++key.z) {
-      for (key.y = min.y; key.y <= max.y; ++key.y) {
-        for (key.x = min.x; key.x <= max.x; ++key.x) {
-          if (middle_B.Contains(T_B_W * grid.CenterOf(key))) passed.insert(key);
-        }
+    ForEachRowIn(grid, MiddleOf(box, voxel_m), box.T_W_B, [&](VoxelKey key, std::int32_t count) {
+      for (; count > 0; --count, ++key.x) passed[BlockOf(key)].Set(IndexInBlock(key));
+    });
+  }
+  for (const auto& [id, box] : last_) {
+    ForEachRowIn(grid, BoxB(box).Padded(voxel_m), box.T_W_B, [&](VoxelKey key, std::int32_t count) {
+      for (; count > 0; --count, ++key.x) {
+        const auto mask = passed.find(BlockOf(key));
+        if (mask != passed.end()) mask->second.Clear(IndexInBlock(key));
       }
-    }
+    });
   }
   BoxResidue residue;
-  for (const VoxelKey& key : passed) {
-    const bool may_stand = std::ranges::any_of(
-        last_, [&](const auto& last) { return Holds(last.second, grid.CenterOf(key), voxel_m); });
-    if (may_stand) continue;
-    ++residue.passed;
-    residue.occupied += map_W.State(key) == VoxelState::kOccupied;
+  for (auto& [key, mask] : passed) {
+    residue.passed += mask.Count();
+    if (const VoxelBlock* block = map_W.blocks().Find(key)) {
+      residue.occupied += (mask &= block->occupied).Count();
+    }
   }
   return residue;
 }

@@ -26,6 +26,7 @@ void MetSurfaces::Add(const Frame& frame, const Pose& T_W_S, const SceneSnapshot
     }
     if (!body->second) continue;
     const Eigen::Vector3d p_B = *body->second * p_S;
+    if (id != kStaticLabel && !bodies_.Find(id)->BoxB().Padded(kBeside_m).Contains(p_B)) continue;
     const VoxelGrid& grid = id == kStaticLabel ? static_grid : object_grid;
     if (grid.Addressable(p_B)) met_[id].try_emplace(grid.KeyOf(p_B), p_B);
   }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "report/box_limit.h"
+#include "report/box_voxels.h"
 #include "report/voxel_marks.h"
 
 namespace clearway {

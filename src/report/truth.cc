@@ -60,6 +60,7 @@ Truth TruthOf(const LidarFolder& folder) {
   Truth truth;
   truth.description = "the recorded boxes";
   truth.end = folder.poses.empty() ? Time{} : folder.poses.back().stamp;
+  for (const RecordedPose& pose : folder.poses) truth.told.push_back(pose.stamp);
   truth.boxes = [tracks](Time t) {
     std::vector<TrueBox> boxes;
     for (const auto& [id, track] : *tracks) {

@@ -56,6 +56,7 @@ void VoxelMarks::MarkHull(const Mesh& hull_O, const Pose& T_O_W) {
     for (first.y = min_.y; first.y <= max_.y; ++first.y) {
       const auto [begin_m, end_m] =
           PartOfRow(faces, T_O_W * grid_.CenterOf(first), (max_.x - min_.x) * voxel_m);
+      if (begin_m > end_m) continue;
       const auto row = marks_.begin() + static_cast<std::ptrdiff_t>(IndexOf(first));
       const auto begin = static_cast<std::ptrdiff_t>(std::ceil(begin_m / voxel_m));
       const auto end = static_cast<std::ptrdiff_t>(std::floor(end_m / voxel_m)) + 1;

@@ -5,7 +5,7 @@
 
 #include "absl/container/flat_hash_map.h"
 #include "clearway/scene/timed_scene.h"
-#include "report/box_limit.h"
+#include "report/box_voxels.h"
 
 namespace clearway {
 namespace {
@@ -85,6 +85,14 @@ void ForEachVoxel(const VoxelGrid& grid, const Placed& placed, Visit&& visit) {
   }
 }
 
+// A step later, or where boxes are told again: stamps may leave years out.
+Time NextLook(const Truth& truth, Time t) {
+  constexpr Duration kLongGap = std::chrono::seconds(1);
+  const auto next = std::ranges::lower_bound(truth.told, t + kStep);
+  const bool leaps = next != truth.told.end() && *next - t > kLongGap;
+  return leaps ? *next : t + kStep;
+}
+
 Confusion::Said SaidBy(SpaceStatus status) {
   if (status == SpaceStatus::kFree) return Confusion::kFree;
   return status == SpaceStatus::kOccupied ? Confusion::kOccupied : Confusion::kUnknown;
@@ -116,7 +124,7 @@ WayConfusion::WayConfusion(Truth truth, std::vector<Duration> ahead)
 void WayConfusion::FindPlaces(const VoxelGrid& grid, Time first) {
   has_places_ = true;
   absl::flat_hash_map<VoxelKey, Ids> passed_by;
-  for (Time t = first; t <= truth_.end; t += kStep) {
+  for (Time t = first; t <= truth_.end; t = NextLook(truth_, t)) {
     const Boxes boxes(truth_, t);
     for (const Placed& placed : boxes.placed()) {
       if (!CanLookThrough(grid, placed.near_W)) continue;

@@ -154,6 +154,9 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
       Clearway({"evaluate", "sim:small", "--frames", "2", "--html", folder / "missing/small.html"});
   EXPECT_EQ(nowhere.exit_code, 1);
   EXPECT_THAT(nowhere.err, HasSubstr("missing/small.html"));
+  const Finished a_folder = Clearway({"evaluate", "sim:small", "--html", folder.path()});
+  EXPECT_EQ(a_folder.exit_code, 1);
+  EXPECT_THAT(a_folder.err, HasSubstr("is a folder; name a file"));
 }
 
 TEST(Evaluate, WithWrongLabels) {

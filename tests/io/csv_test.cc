@@ -49,6 +49,7 @@ TEST(CsvTable, RefusesMalformedText) {
   EXPECT_THAT(ErrorOf("a,b\n\"1\"x,2\n"), HasSubstr("line 2: text follows a closing quote"));
   EXPECT_THAT(ErrorOf("a,b\n1\",2\n"), HasSubstr("line 2: a quote inside an unquoted field"));
   EXPECT_THAT(ErrorOf("a,a\n1,2\n"), HasSubstr("column a occurs twice"));
+  EXPECT_THAT(ErrorOf("1,2\n3,4\n"), HasSubstr("line 1: the header line seems missing: '1'"));
 }
 
 TEST(CsvTable, NamesAMissingColumn) {
@@ -67,7 +68,7 @@ TEST(CsvRow, ReadsNumbers) {
   EXPECT_TRUE(dut.status().ok());
 }
 
-TEST(CsvRow, ReadsTextInUtf8Alone) {
+TEST(CsvRow, ReadsPlainTextInUtf8Alone) {
   for (const char* text : {"Car", "", "Fußgänger", "歩行者", "\xF4\x8F\xBF\xBF"}) {
     const auto table = CsvTable::Parse("t.csv", std::string("a\n") + text + "\n");
     CsvRow dut(*table, 0);
@@ -81,8 +82,21 @@ TEST(CsvRow, ReadsTextInUtf8Alone) {
     const auto table = CsvTable::Parse("t.csv", std::string("a\n") + text + "\n");
     CsvRow dut(*table, 0);
     dut.Text(0);
-    EXPECT_THAT(dut.status().message(), HasSubstr("is not text in UTF-8")) << text;
+    EXPECT_THAT(dut.status().message(), HasSubstr("is not text in UTF-8 without control")) << text;
   }
+}
+
+TEST(CsvRow, ReadsTextOfSomeLengthAlone) {
+  for (const std::size_t size : {200u, 201u}) {
+    const auto table = CsvTable::Parse("t.csv", "a\n" + std::string(size, 'x') + "\n");
+    CsvRow dut(*table, 0);
+    dut.Text(0);
+    EXPECT_EQ(dut.status().ok(), size == 200);
+  }
+  const auto table = CsvTable::Parse("t.csv", std::string("a\nC\0r\n", 6));
+  CsvRow dut(*table, 0);
+  dut.Text(0);
+  EXPECT_THAT(dut.status().message(), HasSubstr("without control characters"));
 }
 
 TEST(CsvRow, KeepsTheFirstErrorWithItsPlace) {

@@ -93,6 +93,7 @@ TEST(LidarFolder, RefusesBadRowsNamingThem) {
   const std::string identity = ",1,0,0,0,0,1,0,0,0,0,1,0\n";
   EXPECT_THAT(objects_with("6,0,Van,0,4,2,2,1" + identity), HasSubstr("line 6, column track: '0'"));
   EXPECT_THAT(objects_with("6,9,Van,0,4,0,2,1" + identity), HasSubstr("columns l, w, h"));
+  EXPECT_THAT(objects_with("6,9,Van,0,4,2e6,2,1" + identity), HasSubstr("'2e6' is not a number"));
   EXPECT_THAT(objects_with("6,9,Van,0,4,1,2,-1" + identity), HasSubstr("column n_points: '-1'"));
   EXPECT_THAT(objects_with("8,9,Van,0,4,1,2,1" + identity), HasSubstr("frame 8 has no pose"));
   EXPECT_THAT(objects_with("6,3,Van,0,4,1,2,1" + identity),

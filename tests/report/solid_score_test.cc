@@ -100,6 +100,17 @@ TEST(SolidScore, ASolidTooLargeToCompareIsLeftOut) {
   EXPECT_EQ(dut.overlaps().at(7)[0].seen, 0);
 }
 
+// Whatever its label: the hull of what was met would reach as far.
+TEST(MetSurfaces, WhatIsFarFromTheBodyIsNotOfIt) {
+  Frame frame;
+  frame.stamp = TestScene().stamp;
+  frame.points_S = {{-0.999f, 0, 0}, {-1.4f, 0, 0}, {-1.6f, 0, 0}, {40, 0, 0}};
+  frame.labels.assign(frame.points_S.size(), 7);
+  MetSurfaces dut(OneBox());
+  dut.Add(frame, Pose::Translation(-2, 0, 0), TestScene());
+  EXPECT_EQ(dut.Of(7).size(), 2u);
+}
+
 // A part that no ray has met is not missed.
 TEST(SolidScore, WhatWasNotSeenDoesNotCount) {
   MetSurfaces met(OneBox());

@@ -106,6 +106,21 @@ TEST(WayConfusion, IsSilentOfWhatNobodyKnows) {
   EXPECT_EQ(confusion.truly_occupied, Counts{});
 }
 
+// Stamps may leap by years, in which nothing is told: they are not looked through.
+TEST(WayConfusion, LooksWhereBoxesAreTold) {
+  const Time later = testing_support::At(2e9);
+  Truth truth = Moving(2);
+  truth.end = later + std::chrono::seconds(1);
+  truth.boxes = [boxes = truth.boxes, later](Time t) {
+    return boxes(t < later ? t : t - (later - Time()));
+  };
+  for (int k = 0; k <= 20; ++k) truth.told.push_back(testing_support::At(0.1 * k));
+  for (int k = 0; k <= 10; ++k) truth.told.push_back(later + FromSeconds(0.1 * k));
+  const Confusion confusion = ConfusionOf(FreeScene(), truth);
+  EXPECT_EQ(confusion.truly_occupied, Single(Confusion::kFree, 3 * 3 * 3));
+  EXPECT_EQ(confusion.truly_free, ConfusionOf(FreeScene(), Moving(2)).truly_free);
+}
+
 // A second box, 4 m to the side, has a way of its own.
 TEST(WayConfusion, TellsOfEachObject) {
   Truth truth = Moving();

@@ -23,7 +23,9 @@ class MetSurfaces {
 
   // A frame, of true labels, whose points were taken from T_W_S in truth, and the version after it.
   // Returns beyond the scene's range count as none. Of an object whose map was begun in this frame,
-  // what was met before is forgotten. Points of objects that are nowhere in truth are left out.
+  // what was met before is forgotten. Points of objects that are nowhere in truth are left out, and
+  // so are those that lie more than kBeside_m outside their body's box: a label alone is no truth.
+  static constexpr double kBeside_m = 0.5;
   void Add(const Frame& frame, const Pose& T_W_S, const SceneSnapshot& scene);
 
   // Of an object; of the static world, whose B is W, if the id is 0.

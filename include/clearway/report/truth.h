@@ -26,6 +26,9 @@ struct TrueBox {
 struct Truth {
   std::string description;  // for people: "the recorded boxes"
   Time end;                 // nothing is known of later times
+  // The stamps for which boxes were told, ascending: between two that lie more than a second apart
+  // there are none. Empty: there are some at any time.
+  std::vector<Time> told;
   // The boxes of what is there at that time, by ascending ids.
   std::function<std::vector<TrueBox>(Time)> boxes;
   // What the shape touches: the lowest id of an object, else 0 for the static world (where it is
