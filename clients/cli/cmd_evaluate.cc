@@ -33,6 +33,7 @@ struct Flags {
   SourceFlags source;
   std::string motion = "last";
   double rest_distance_m = 0;
+  std::optional<double> object_voxel_m;
   double max_range_m = 50;
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
@@ -46,7 +47,8 @@ struct Flags {
 
 SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   SceneParams params;
-  params.resolution_m = params.object_resolution_m = source.frames.resolution_m;
+  params.resolution_m = source.frames.resolution_m;
+  params.object_resolution_m = flags.object_voxel_m.value_or(source.frames.resolution_m);
   params.rays.max_range_m = flags.max_range_m;
   params.rays.grazing_m = flags.grazing_m;
   params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
@@ -172,6 +174,11 @@ void AddEvaluate(Cli& cli) {
                    "As of clearway-server --scene-rest-distance-m")
       ->check(Between(0, 100))
       ->capture_default_str();
+  command
+      ->add_option("--object-voxel", flags->object_voxel_m,
+                   "As of clearway-server --scene-object-resolution-m (unless\ngiven, what suits "
+                   "the source)")
+      ->check(Between(0.01, 10));
   command->add_option("--max-range", flags->max_range_m, "How far rays are used, in metres")
       ->check(Between(0.1, 1000))
       ->capture_default_str();

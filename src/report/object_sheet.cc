@@ -135,6 +135,10 @@ absl::Status WriteObjectSheet(const SceneSnapshot& scene, const ObjectSheetOptio
   }
   Canvas canvas(options.width_px, static_cast<int>(std::ceil(height_px)));
   canvas.Text({kMarginPx, 46}, options.title, {.size_px = 27, .bold = true});
+  if (std::ranges::any_of(rows, [](const Row& row) { return row.views->HasPale(); })) {
+    canvas.Text({kMarginPx + width_px, 46}, "pale, and not in the oblique view: hit by few scans",
+                {.size_px = 15, .color = palette::kMuted, .align = Align::kRight});
+  }
   double y = kHeaderPx;
   for (const Row& row : rows) {
     const auto name = options.names.find(row.object->id);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "report/polygon.h"
 
@@ -33,6 +34,16 @@ std::array<Eigen::Vector3d, 4> CornersOf(const Face& face, const Eigen::Vector3d
     corners[i][v] += (i >= 2 ? half : -half);
   }
   return corners;
+}
+
+Polygon Projected(std::span<const Eigen::Vector3d> points_O, const Eigen::Matrix3d& axes,
+                  const Eigen::Vector2d& origin, double px_per_m) {
+  Polygon polygon;
+  for (const Eigen::Vector3d& p_O : points_O) {
+    const Eigen::Vector3d p = axes * p_O;
+    polygon.push_back(origin + px_per_m * Eigen::Vector2d(p.x(), -p.y()));
+  }
+  return polygon;
 }
 
 // The parts of a cube that the viewer sees: those faces that are turned towards him.
@@ -67,10 +78,19 @@ const char* NameOf(ViewKind kind) {
   return "front";
 }
 
-VoxelViews::VoxelViews(const MovingObject& object) : object_(object), extent_(ExtentOf(object)) {
+VoxelViews::VoxelViews(const MovingObject& object)
+    : object_(object), extent_(ExtentOf(object)), least_(object.map_O.model().clamp_max) {
+  constexpr double kFewCertain = 0.4;
   object.map_O.blocks().ForEach([this](BlockKey key, const VoxelBlock& block) {
-    block.occupied.ForEach([&](int index) { voxels_.push_back(VoxelAt(key, index)); });
+    block.occupied.ForEach([&](int index) {
+      (block.log_odds[index] >= least_ ? cubes_ : pale_).push_back(VoxelAt(key, index));
+    });
   });
+  if (static_cast<double>(cubes_.size()) >= kFewCertain * static_cast<double>(voxel_count()))
+    return;
+  cubes_.insert(cubes_.end(), pale_.begin(), pale_.end());
+  pale_.clear();
+  least_ = object.map_O.model().occupied;
 }
 
 Eigen::Matrix3d VoxelViews::AxesOf(ViewKind kind) const {
@@ -111,8 +131,21 @@ void VoxelViews::Draw(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& corn
   const Aabb bounds = BoundsOf(kind);
   const Eigen::Vector2d origin =
       corner + px_per_m * Eigen::Vector2d(-bounds.min.x(), bounds.min.y());
+  if (kind != ViewKind::kOblique) DrawPale(canvas, kind, origin, px_per_m);
   DrawCubes(canvas, kind, origin, px_per_m);
   if (kind != ViewKind::kOblique || object_.given()) DrawHull(canvas, kind, origin, px_per_m);
+}
+
+void VoxelViews::DrawPale(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,
+                          double px_per_m) const {
+  const Eigen::Matrix3d axes = AxesOf(kind);
+  const VoxelGrid& grid = object_.map_O.grid();
+  for (const VoxelKey& key : pale_) {
+    for (const Face& face : FacesTowards(axes.row(2))) {
+      const auto corners = CornersOf(face, grid.CenterOf(key), grid.resolution_m() / 2);
+      canvas.Fill(Projected(corners, axes, origin, px_per_m), Color::Hex(0xe4f0ee));
+    }
+  }
 }
 
 void VoxelViews::DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,
@@ -123,7 +156,7 @@ void VoxelViews::DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d&
   const Aabb bounds = BoundsOf(kind);
 
   // From the back to the front along each axis in turn: no cube is drawn over one before it.
-  std::vector<VoxelKey> order = voxels_;
+  std::vector<VoxelKey> order = cubes_;
   const auto rank = [&viewer](VoxelKey key) {
     for (int axis = 0; axis < 3; ++axis) {
       if (viewer[axis] < 0) Axis(key, axis) = -Axis(key, axis);
@@ -140,12 +173,9 @@ void VoxelViews::DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d&
     for (const Face& face : faces) {
       VoxelKey neighbour = key;
       Axis(neighbour, face.axis) += face.side;
-      if (object_.map_O.State(neighbour) == VoxelState::kOccupied) continue;
-      Polygon polygon;
-      for (const Eigen::Vector3d& p_O : CornersOf(face, center, grid.resolution_m() / 2)) {
-        const Eigen::Vector3d p = axes * p_O;
-        polygon.push_back(origin + px_per_m * Eigen::Vector2d(p.x(), -p.y()));
-      }
+      if (object_.map_O.Find(neighbour).value_or(least_ - 1) >= least_) continue;
+      const auto corners = CornersOf(face, center, grid.resolution_m() / 2);
+      const Polygon polygon = Projected(corners, axes, origin, px_per_m);
       const double light = face.axis == 2 ? 1.0 : face.axis == 0 ? 0.45 : 0.7;
       const Color color = ShadeOf(nearness, kind == ViewKind::kOblique ? light : 1.0);
       canvas.Fill(polygon, color);
@@ -157,11 +187,7 @@ void VoxelViews::DrawCubes(Canvas& canvas, ViewKind kind, const Eigen::Vector2d&
 void VoxelViews::DrawHull(Canvas& canvas, ViewKind kind, const Eigen::Vector2d& origin,
                           double px_per_m) const {
   const Eigen::Matrix3d axes = AxesOf(kind);
-  std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector3d& p_O : object_.solid->hull->vertices) {
-    const Eigen::Vector3d p = axes * p_O;
-    points.push_back(origin + px_per_m * Eigen::Vector2d(p.x(), -p.y()));
-  }
+  Polygon points = Projected(object_.solid->hull->vertices, axes, origin, px_per_m);
   canvas.Outline(ConvexOutline(std::move(points)), {palette::kInk.WithAlpha(0.6), 1.4, 5});
 }
 

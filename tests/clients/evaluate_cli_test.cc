@@ -124,6 +124,14 @@ TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
   EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
 }
 
+TEST(Evaluate, ObjectsOfSmallerVoxels) {
+  const Finished dut =
+      Clearway({"evaluate", "sim:small", "--frames", "3", "--object-voxel", "0.05", "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  EXPECT_EQ(nlohmann::json::parse(dut.out)["objects"][0]["reconstruction"]["voxel_m"], 0.05);
+  EXPECT_EQ(Clearway({"evaluate", "sim:small", "--object-voxel", "0"}).exit_code, 2);
+}
+
 // Of the drift of the simulated SLAM hardly anything is left.
 TEST(Evaluate, MapsOfMendedSensorPoses) {
   const auto residual = [](std::vector<std::string> flags) {

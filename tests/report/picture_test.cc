@@ -165,6 +165,33 @@ TEST(ObjectSheet, AGivenObjectIsDrawnAsItsHull) {
   EXPECT_GT(Picture(file).height(), 200);
 }
 
+// A ball of certain voxels among some that one scan hit; and all of those alone.
+TEST(ObjectSheet, WhatFewScansHitIsPale) {
+  const auto pale_in = [](bool has_certain) {
+    SceneSnapshot scene = TestScene();
+    MovingObject object;
+    object.id = 8;
+    object.history = {{scene.stamp, Pose{}}};
+    VoxelMap map_O(0.1);
+    const OccupancyModel& model = map_O.model();
+    for (int i = 0; i < 1000; ++i) {
+      const VoxelKey key{i % 10, i / 10 % 10, i / 100};
+      map_O.Set(key, has_certain && key.x < 5 ? model.clamp_max : model.hit);
+    }
+    scene.objects = {std::make_shared<MovingObject>(WithMap(std::move(object), map_O))};
+    const std::string file = FileFor("pale.png");
+    EXPECT_TRUE(WriteObjectSheet(scene, {}, file).ok());
+    const Picture picture(file);
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) count += Near(picture.At(x, y), 0xe4f0ee, 1);
+    }
+    return count;
+  };
+  EXPECT_GT(pale_in(true), 10'000);
+  EXPECT_LT(pale_in(false), 100);
+}
+
 TEST(ObjectSheet, RefusesAnUnknownObject) {
   ObjectSheetOptions options;
   options.objects = {7, 8};
