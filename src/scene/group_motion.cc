@@ -5,6 +5,7 @@
 
 #include "scene/object_motion.h"
 #include "scene/position_bound.h"
+#include "scene/prospect.h"
 
 namespace clearway {
 namespace {
@@ -24,19 +25,9 @@ std::optional<Twist> VelocityAlong(const StampedPose& part, const MovingObject& 
   const auto later = std::ranges::upper_bound(history, part.stamp, {}, &StampedPose::stamp);
   const std::span past(history.begin(), later);
   if (past.size() < 2) return std::nullopt;
-  const Twist last_motion_O = VelocityBetween(past[past.size() - 2], past.back());
-  const Twist velocity_O = GoesOn(past, last_motion_O, *leader.solid, params);
+  const Twist velocity_O = GoesOnByItself(past, *leader.solid, params);
   const Pose T_W_O = PredictPose(leader, part.stamp, params.horizon).T_W_O;
   return InFrame(Inverse(part.T_W_O) * T_W_O, velocity_O);
-}
-
-// Whether the part was clearly better predicted by itself, in enough cases to be no chance.
-bool IsBetterByItself(const PastMisses& by_itself, const PastMisses& along) {
-  constexpr int kFewest = 4;
-  constexpr double kClearly = 0.5;  // of squares of distances
-  return by_itself.half.count() >= kFewest &&
-         by_itself.half.sum_m2() + by_itself.whole.sum_m2() <
-             kClearly * (along.half.sum_m2() + along.whole.sum_m2());
 }
 
 }  // namespace
@@ -51,7 +42,7 @@ MovingObject WithFutureOf(MovingObject part, const MovingObject& leader, const P
 
 MovingObject GoingAlong(MovingObject part, const MovingObject& leader, const SceneParams& params) {
   const auto by_itself = [&](std::span<const StampedPose> past) {
-    return GoesOn(past, VelocityBetween(past[past.size() - 2], past.back()), *part.solid, params);
+    return GoesOnByItself(past, *part.solid, params);
   };
   const auto along = [&](std::span<const StampedPose> past) {
     const std::optional<Twist> velocity_P = VelocityAlong(past.back(), leader, params);
@@ -62,10 +53,17 @@ MovingObject GoingAlong(MovingObject part, const MovingObject& leader, const Sce
       MissesOf(part.history, part.tracked_since, *part.solid, by_itself);
   const PastMisses misses_along = MissesOf(part.history, part.tracked_since, *part.solid, along);
   const bool alone = leader.future.empty() && part.velocity_O && part.history.size() > 1 &&
-                     IsBetterByItself(misses_by_itself, misses_along);
-  part.velocity_O = alone ? by_itself(part.history) : InFrame(Inverse(T_O_P), *leader.velocity_O);
-  part.bound =
-      BoundBy(alone ? misses_by_itself : misses_along, part.history.size() > 1, *part.velocity_O);
+                     IsClearlyBetter(misses_by_itself, misses_along);
+  Prospect prospect;
+  if (alone) {
+    prospect = ProspectOf(part.history, part.tracked_since, LastMotionOf(part.history), *part.solid,
+                          params);
+  } else {
+    prospect.velocity_O = InFrame(Inverse(T_O_P), *leader.velocity_O);
+    prospect.bound = BoundBy(misses_along, part.history.size() > 1, prospect.velocity_O);
+  }
+  part.velocity_O = prospect.velocity_O;
+  part.bound = prospect.bound;
   return WithFutureOf(std::move(part), leader, T_O_P);
 }
 

@@ -34,4 +34,13 @@ Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, con
   return VelocityOfTrack(track, CenterOf(solid));
 }
 
+Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
+                     const SceneParams& params) {
+  return GoesOn(track, LastMotionOf(track), solid, params);
+}
+
+Twist LastMotionOf(std::span<const StampedPose> track) {
+  return VelocityBetween(track[track.size() - 2], track.back());
+}
+
 }  // namespace clearway

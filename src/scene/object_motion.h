@@ -17,4 +17,11 @@ Eigen::Vector3d CenterOf(const Solid& solid);
 Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, const Solid& solid,
              const SceneParams& params);
 
+// The same, of a track of two poses or more whose last motion is that between the last two.
+Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
+                     const SceneParams& params);
+
+// The velocity between the last two poses, in O.
+Twist LastMotionOf(std::span<const StampedPose> track);
+
 }  // namespace clearway

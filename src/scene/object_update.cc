@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "clearway/map/ray_caster.h"
-#include "scene/object_motion.h"
 #include "scene/position_bound.h"
+#include "scene/prospect.h"
 #include "scene/view_registration.h"
 
 namespace clearway {
@@ -40,13 +40,13 @@ const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
 // After a pose that is no prediction, be it a motion from a predicted one: then what was missed in
 // between is not known.
 void SetMotion(MovingObject& object, bool after_gap, const SceneParams& params) {
-  if (object.velocity_O) {
-    object.velocity_O = GoesOn(object.history, *object.velocity_O, *object.solid, params);
-  }
   if (object.bridged || after_gap) object.tracked_since = object.t_k();
   object.bridged = false;
-  object.bound = BoundOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
-                         *object.solid, params);
+  const auto [velocity_O, bound] =
+      ProspectOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
+                 *object.solid, params);
+  if (object.velocity_O) object.velocity_O = velocity_O;
+  object.bound = bound;
 }
 
 // Of an object of which no motion is known.

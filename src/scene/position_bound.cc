@@ -9,7 +9,7 @@ namespace clearway {
 namespace {
 
 constexpr Duration kHalf = std::chrono::milliseconds(500), kWhole = 2 * kHalf;
-constexpr double kUsualCount = 4;  // what is usual counts as much as so many predictions
+constexpr double kUsualCount = 2;  // what is usual counts as much as so many predictions
 
 // Between the first pose of the track and the last.
 Pose PoseAt(std::span<const StampedPose> track, Time t) {
@@ -106,7 +106,7 @@ PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual) {
   constexpr double kOf95 = 2.0, kUsualHalf_m = 0.17, kUsualWhole_m = 0.5;
   constexpr double kWilful = 1.1;  // times what is usual
   constexpr double kGrows = 0.5;   // with the square at least so much
-  constexpr double kOf95Noise = 1.7;
+  constexpr double kOf95Noise = 1.55;
   const double usual_half_m = share_of_usual * kUsualHalf_m;
   const double usual_whole_m = share_of_usual * kUsualWhole_m;
   const double half_m =
@@ -130,7 +130,10 @@ PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual) {
 }  // namespace
 
 double Misses::Scale_m(double usual_m) const {
-  return std::sqrt((kUsualCount * usual_m * usual_m + sum_m2_) / (kUsualCount + count_));
+  const double usual_m2 = usual_m * usual_m;
+  const double borne_out = sum_m2_ > count_ * usual_m2 ? count_ * usual_m2 / sum_m2_ : 1;
+  const double usual_count = borne_out * kUsualCount;
+  return std::sqrt((usual_count * usual_m2 + sum_m2_) / (usual_count + count_));
 }
 
 void SoonMisses::Add(double ahead_s, double squared_m2, bool enough) {
@@ -155,7 +158,7 @@ double SoonMisses::VelocityError_m2ps2() const {
 }
 
 double SoonMisses::Scale_m(double ahead_s, double usual_m) const {
-  constexpr double kMost = 4 * kUsualCount;  // neighbours miss by much the same
+  constexpr double kMost = 16;  // neighbours miss by much the same
   if (enough_ == 0) return 0;
   const double count = std::min(enough_, kMost);
   const double missed_m2 = ahead_s * ahead_s * VelocityError_m2ps2();
@@ -174,6 +177,14 @@ PastMisses MissesOf(std::span<const StampedPose> track, Time since, const Solid&
   return misses;
 }
 
+bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others) {
+  constexpr int kFewest = 4;
+  constexpr double kClearly = 0.5;  // of squares of distances
+  return misses.half.count() >= kFewest &&
+         misses.half.sum_m2() + misses.whole.sum_m2() <
+             kClearly * (others.half.sum_m2() + others.whole.sum_m2());
+}
+
 // Root mean squares of misses times kOf95 were right for 95 in 100 objects of recorded drives
 // (KITTI, Argoverse 2), and of a simulated one with and without noise. So was what an object may do
 // of which one pose is known and nothing else.
@@ -188,8 +199,7 @@ PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& ve
 PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,
                       const Solid& solid, const SceneParams& params) {
   const auto by_itself = [&](std::span<const StampedPose> past) {
-    const Twist last_motion_O = VelocityBetween(past[past.size() - 2], past.back());
-    return GoesOn(past, last_motion_O, solid, params);
+    return GoesOnByItself(past, solid, params);
   };
   return BoundBy(MissesOf(track, since, solid, by_itself), track.size() > 1, velocity_O);
 }

@@ -9,7 +9,8 @@
 
 namespace clearway {
 
-// How far an object of that track, whose newest pose is the last, may be from where GoesOn has it.
+// How far an object of that track, whose newest pose is the last, may be from where GoesOn has it
+// with that velocity.
 // The object's own past tells, if it is known for long enough: how far it was, half a second and a
 // second later and sooner, from where it would have been predicted (the last motion being that
 // between two poses, wherever a frame's motion began). Weighed against what is usual: for the
@@ -30,7 +31,8 @@ class Misses {
   }
   int count() const { return count_; }
   double sum_m2() const { return sum_m2_; }
-  // Root mean square, weighed against what is usual.
+  // Root mean square, weighed against what is usual; against that the less, the more they exceed
+  // it.
   double Scale_m(double usual_m) const;
 
  private:
@@ -67,6 +69,9 @@ struct PastMisses {
 // half second (for what was missed soon, at every pose), as far as its poses since then reach back.
 PastMisses MissesOf(std::span<const StampedPose> track, Time since, const Solid& solid,
                     const GoesOnBy& goes_on_by);
+
+// Whether these are clearly less than the others, in enough cases to be no chance.
+bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others);
 
 // The bound that follows from them, of an object of that velocity. `has_motion`: of one of which
 // more than a pose is known.

@@ -179,6 +179,21 @@ TEST(PositionBound, OfOnePoseIsThatOfWhatMayGoAnywhere) {
 }
 
 // Squares of misses on a line over the squares of the times ahead.
+TEST(Misses, AreWeighedAgainstWhatIsUsual) {
+  Misses dut;
+  EXPECT_DOUBLE_EQ(dut.Scale_m(0.5), 0.5);
+  dut.Add(0);
+  EXPECT_DOUBLE_EQ(dut.Scale_m(0.5), std::sqrt(2 * 0.25 / 3));
+}
+
+// One that misses by four times as much is of another kind.
+TEST(Misses, CountTheMoreTheMoreTheyExceedWhatIsUsual) {
+  Misses dut;
+  for (int i = 0; i < 4; ++i) dut.Add(4);
+  EXPECT_GT(dut.Scale_m(0.5), 1.9);
+  EXPECT_LT(dut.Scale_m(0.5), 2);
+}
+
 TEST(SoonMisses, TellsTheVelocitysErrorFromTheNoiseOfPoses) {
   constexpr double kNoise_m2 = 0.01, kError_mps = 0.6;
   SoonMisses dut;
@@ -187,14 +202,14 @@ TEST(SoonMisses, TellsTheVelocitysErrorFromTheNoiseOfPoses) {
     dut.Add(ahead_s, kNoise_m2 + ahead_s * ahead_s * kError_mps * kError_mps, i > 2);
   }
   const double usual_m = 0.5;  // counts as much as four, and two are enough ahead
-  EXPECT_NEAR(dut.Scale_m(1, usual_m), std::sqrt((4 * 0.25 + 2 * 0.36) / 6), 1e-9);
+  EXPECT_NEAR(dut.Scale_m(1, usual_m), std::sqrt((2 * 0.25 + 2 * 0.36) / 4), 1e-9);
 }
 
 TEST(SoonMisses, OfOneTimeAheadAreTakenForErrorsOfTheVelocity) {
   SoonMisses dut;
   dut.Add(0.1, 0.04, true);
-  EXPECT_NEAR(dut.Scale_m(1, 0), std::sqrt(4.0 / 5), 1e-9);  // 0.2 m in 0.1 s
-  EXPECT_NEAR(dut.Scale_m(0.5, 0), std::sqrt(1.0 / 5), 1e-9);
+  EXPECT_NEAR(dut.Scale_m(1, 0), std::sqrt(4.0 / 3), 1e-9);  // 0.2 m in 0.1 s
+  EXPECT_NEAR(dut.Scale_m(0.5, 0), std::sqrt(1.0 / 3), 1e-9);
 }
 
 TEST(SoonMisses, OfNothingTellNothing) { EXPECT_EQ(SoonMisses().Scale_m(1, 0.5), 0); }
