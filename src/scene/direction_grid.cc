@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/direction_cells.h"
-
 namespace clearway {
 namespace {
 
@@ -21,14 +19,14 @@ struct Entry {
 };
 
 // The cell that each point of a cloud is in on the face that it is on.
-std::vector<std::uint32_t> OwnCells(const LabelledCloud& cloud) {
+std::vector<std::uint32_t> OwnCells(const LabelledCloud& cloud, const DirectionCells& cells) {
   std::vector<std::uint32_t> own(cloud.ends_W.size());
-  DirectionCells::Find(cloud.ends_W, cloud.origins_W[0], own.data());
+  cells.Find(cloud.ends_W, cloud.origins_W[0], own.data());
   return own;
 }
 
 // Whether there is a point of an object within a cell of each cell.
-std::vector<char> CellsNearObjects(const LabelledCloud& cloud,
+std::vector<char> CellsNearObjects(const LabelledCloud& cloud, const DirectionCells& cells,
                                    const std::vector<std::uint32_t>& own) {
   std::vector<char> is_near(DirectionCells::kCount);
   const auto mark = [&](std::uint32_t about) {
@@ -37,23 +35,22 @@ std::vector<char> CellsNearObjects(const LabelledCloud& cloud,
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (cloud.kinds[i] != RayEnd::kBlock) continue;
     mark(own[i]);
-    DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0], mark);
+    cells.ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0], mark);
   }
   return is_near;
 }
 
 // The points whose own cell has a point of an object within a cell of it.
-std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud) {
-  const std::vector<std::uint32_t> own = OwnCells(cloud);
-  const std::vector<char> is_near = CellsNearObjects(cloud, own);
+std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud, const DirectionCells& cells) {
+  const std::vector<std::uint32_t> own = OwnCells(cloud, cells);
+  const std::vector<char> is_near = CellsNearObjects(cloud, cells, own);
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < own.size(); ++i) {
     if (!is_near[own[i]] || cloud.kinds[i] == RayEnd::kClear) continue;
     entries.push_back({own[i], i, false});
-    DirectionCells::ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0],
-                                  [&](std::uint32_t cell) {
-                                    entries.push_back({cell, i, true});
-                                  });
+    cells.ForEachInRims(own[i], cloud.ends_W[i] - cloud.origins_W[0], [&](std::uint32_t cell) {
+      entries.push_back({cell, i, true});
+    });
   }
   return entries;
 }
@@ -66,8 +63,16 @@ std::size_t StepOver(std::size_t points) {
 
 }  // namespace
 
-DirectionGrid::DirectionGrid(const LabelledCloud& cloud) : begin_(DirectionCells::kCount + 1) {
-  const std::vector<Entry> entries = EntriesNearObjects(cloud);
+DirectionGrid::DirectionGrid(const LabelledCloud& cloud) {
+  for (const int across : {DirectionCells::kMostAcross, 60, 40, 25}) {
+    Fill(cloud, DirectionCells(across));
+    if (!IsSparse()) return;
+  }
+}
+
+void DirectionGrid::Fill(const LabelledCloud& cloud, const DirectionCells& cells) {
+  const std::vector<Entry> entries = EntriesNearObjects(cloud, cells);
+  begin_.assign(DirectionCells::kCount + 1, 0);
   for (const Entry& entry : entries) ++begin_[entry.cell];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<Entry> sorted(entries.size());
@@ -91,6 +96,19 @@ DirectionGrid::DirectionGrid(const LabelledCloud& cloud) : begin_(DirectionCells
     z_m_[place] = p_m.z();
     ranges_m_[place] = std::sqrt(p_m.x() * p_m.x() + p_m.y() * p_m.y() + p_m.z() * p_m.z());
   }
+}
+
+bool DirectionGrid::IsSparse() const {
+  constexpr std::size_t kFewest = 16, kAsked = 256;
+  const std::size_t step = 1 + size() / kAsked;
+  std::size_t asked = 0, found = 0;
+  for (std::size_t place = 0; place < size(); place += step) {
+    for (const std::uint32_t first : RowsAbout(cells_[place])) {
+      found += begin_[first + 3] - begin_[first];
+    }
+    ++asked;
+  }
+  return found < kFewest * asked;
 }
 
 DirectionGrid::Votes DirectionGrid::VotesOn(std::size_t place) const {

@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/direction_cells.h"
 #include "scene/labelled_cloud.h"
 
 namespace clearway {
 
-// Which points of a cloud are neighbours as its sensor sees them: within about a degree, and as far
-// away up to 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points
-// within about a degree of an object's, but none that has gone through to the end of its ray's
+// Which points of a cloud are neighbours as its sensor sees them: within about a degree, or within
+// up to four where rays are so far apart that else there would be hardly any; and as far away up to
+// 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points that near to
+// an object's, but none that has gone through to the end of its ray's
 // range. They have places from 0 to size() - 1, by direction. Where points are dense, some of them
 // are taken for all. Const methods may run on any number of threads.
 class DirectionGrid {
@@ -34,6 +36,10 @@ class DirectionGrid {
   bool MayHaveOthers(std::size_t place) const;
 
  private:
+  void Fill(const LabelledCloud& cloud, const DirectionCells& cells);
+  // Whether points have so few others about them that votes mean nothing.
+  bool IsSparse() const;
+
   std::vector<std::uint32_t> begin_;  // of a cell's points; one more at the end
 
   // By place.

@@ -26,9 +26,15 @@ LabelledCloud CloudOf(const std::vector<Eigen::Vector3d>& ends_W) {
   return cloud;
 }
 
-// All around, over the edges and corners of the cube too.
-TEST(DirectionGrid, NeighboursAreWithinAboutADegree) {
-  constexpr double kSurely = 0.5 * kDegree, kPerhaps = 2.8 * kDegree;
+// Points about places all around, over the edges and corners of the cube too: many, or few.
+struct Patch {
+  int points;
+  double surely_deg, perhaps_deg;  // neighbours
+};
+class Neighbours : public testing::TestWithParam<Patch> {};
+TEST_P(Neighbours, AreWithinAboutADegreeOrFew) {
+  const double surely_rad = GetParam().surely_deg * kDegree;
+  const double perhaps_rad = GetParam().perhaps_deg * kDegree;
   Random random(5);
   const auto near = [&](const Eigen::Vector3d& d) -> Eigen::Vector3d {
     return 10 * (d.normalized() + random.Vector(2 * kDegree)).normalized();
@@ -39,7 +45,7 @@ TEST(DirectionGrid, NeighboursAreWithinAboutADegree) {
     if (round % 3 == 1) middle.x() = middle.y();
     if (round % 3 == 2) middle = {middle.x() < 0 ? -1.0 : 1.0, middle.y() < 0 ? -1.0 : 1.0, 1.0};
     std::vector<Eigen::Vector3d> ends_W;
-    for (int i = 0; i < 60; ++i) ends_W.push_back(near(middle));
+    for (int i = 0; i < GetParam().points; ++i) ends_W.push_back(near(middle));
     const DirectionGrid dut(CloudOf(ends_W));
     std::set<std::uint32_t> asked;
     for (std::size_t place = 0; place < dut.size(); ++place) {
@@ -50,8 +56,8 @@ TEST(DirectionGrid, NeighboursAreWithinAboutADegree) {
       for (const Eigen::Vector3d& other_W : ends_W) {
         const double angle_rad = std::acos(std::min(1.0, end_W.dot(other_W) / 100));
         if (&other_W == &end_W) continue;
-        surely += angle_rad < kSurely;
-        perhaps += angle_rad < kPerhaps;
+        surely += angle_rad < surely_rad;
+        perhaps += angle_rad < perhaps_rad;
       }
       const DirectionGrid::Votes votes = dut.VotesOn(place);
       EXPECT_EQ(votes.others, 0u);
@@ -62,6 +68,8 @@ TEST(DirectionGrid, NeighboursAreWithinAboutADegree) {
     EXPECT_EQ(asked.size(), ends_W.size());
   }
 }
+INSTANTIATE_TEST_SUITE_P(DirectionGrid, Neighbours,
+                         testing::Values(Patch{120, 0.5, 2.8}, Patch{5, 2.4, 11}));
 
 // Two objects of which one stands before the other, and both before a wall. Also so dense that some
 // points stand for all.
