@@ -35,6 +35,8 @@ AT_LEAST = {
     "reidentified_fraction": 0.95,
     "reconstruction_registered_accuracy_x": 2,
     "reconstruction_registered_completeness_x": 1,
+    "reconstruction_refined_accuracy_x": 2,
+    "reconstruction_refined_completeness_x": 1,
     "reconstruction_mended_completeness_x": 1,
     "reconstruction_occupied_precision": 0.97,
     "reconstruction_occupied_recall": 0.97,

@@ -47,9 +47,9 @@ void PrintText(std::ostream& out, const std::string& address, const ServerStatus
       << "scene       version " << s.version << ", newest stamp " << Seconds(s.stamp) << "\n";
   if (!s.scene_hash.empty()) out << "hash        " << s.scene_hash << "\n";
   out << "frames      " << Grouped(s.frames_applied) << " applied, " << Grouped(s.frames_refused)
-      << " refused, " << Grouped(s.queued_frames) << " waiting\n"
+      << " refused since it started, " << Grouped(s.queued_frames) << " waiting\n"
       << "points      " << Grouped(s.points_used) << " used, " << Grouped(s.points_not_finite)
-      << " not finite\n"
+      << " not finite since it started\n"
       << "static map  " << Plural(s.static_observed_voxels, "voxel") << " observed, "
       << Grouped(s.static_occupied_voxels) << " of them occupied\n";
   if (!s.static_box_W.Empty()) {

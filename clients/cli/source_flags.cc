@@ -1,5 +1,6 @@
 #include "cli/source_flags.h"
 
+#include <filesystem>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -153,6 +154,10 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
 
 absl::Status CheckSourceFlags(const SourceFlags& flags, const std::string& spec,
                               SourceFormat format) {
+  std::error_code ignored;
+  if (format == SourceFormat::kRecording && !std::filesystem::exists(spec, ignored)) {
+    return absl::OkStatus();  // it is no recording either; what opens it will say so
+  }
   for (const Applies& row : kApplies) {
     if ((row.formats & Bit(format)) != 0 || Given(flags, row.flag) == nullptr) continue;
     return UsageError(

@@ -9,11 +9,6 @@
 #include "cli/cli.h"
 
 namespace clearway::cli {
-namespace {
-
-constexpr std::uint64_t kSeed = 1;  // of wrong labels
-
-}  // namespace
 
 void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
   const char* const group = "Errors of the source";
@@ -21,6 +16,12 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
       ->add_option("--wrong-labels", flags->wrong_labels,
                    "Give this share of the points a wrong label")
       ->check(Between(0, 1))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--wrong-labels-seed", flags->wrong_labels_seed,
+                   "Which points get a wrong label, and which one")
+      ->check(NotNegative())
       ->capture_default_str()
       ->group(group);
   command
@@ -52,6 +53,7 @@ void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
 
 FrameTeller::FrameTeller(const ErrorFlags& flags)
     : wrong_labels_(flags.wrong_labels),
+      wrong_labels_seed_(flags.wrong_labels_seed),
       mask_bleed_rad_(flags.mask_bleed_deg * std::numbers::pi / 180),
       parts_(flags.parts),
       unlabelled_(flags.unlabelled.begin(), flags.unlabelled.end()) {
@@ -63,7 +65,7 @@ Frame FrameTeller::Tell(const Frame& frame) {
   if (parts_ == "one") told = WithoutParts(std::move(told));
   if (parts_ == "apart") told.parts.clear();
   if (tracker_) told = tracker_->Retold(std::move(told));
-  return WithWrongLabels(std::move(told), wrong_labels_, kSeed);
+  return WithWrongLabels(std::move(told), wrong_labels_, wrong_labels_seed_);
 }
 
 ScenePtr FrameTeller::WithTrueNames(const Frame& told, const ScenePtr& scene) {

@@ -1,6 +1,7 @@
 // Frames as sources with errors tell them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@ namespace clearway::cli {
 
 struct ErrorFlags {
   double wrong_labels = 0;
+  std::uint64_t wrong_labels_seed = 1;
   double mask_bleed_deg = 0;
   std::optional<double> forget_s;
   std::vector<ObjectId> unlabelled;
@@ -34,7 +36,9 @@ class FrameTeller {
   std::optional<Identities> identities() const;
 
  private:
-  double wrong_labels_, mask_bleed_rad_;
+  double wrong_labels_;
+  std::uint64_t wrong_labels_seed_;
+  double mask_bleed_rad_;
   std::string parts_;
   std::set<ObjectId> unlabelled_;
   std::optional<ForgetfulTracker> tracker_;

@@ -167,14 +167,22 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
   EXPECT_THAT(a_folder.err, HasSubstr("is a folder; name a file"));
 }
 
+// Whose rays are 1.4 degrees apart.
 TEST(Evaluate, WithWrongLabels) {
-  const auto p95_m = [](const std::string& share) {
-    const Finished dut =
-        Clearway({"evaluate", "sim:small", "--frames", "30", "--wrong-labels", share, "--json"});
-    const auto json = nlohmann::json::parse(dut.out);
-    return json["objects"][0]["reconstruction"]["p95_m"].get<double>();
+  const auto object = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"evaluate", "sim:small", "--frames", "20", "--json"});
+    return nlohmann::json::parse(Clearway(flags).out)["objects"][0];
   };
-  EXPECT_GT(p95_m("0.05"), 2 * p95_m("0"));
+  const auto p95_m = [](const nlohmann::json& of) {
+    return of["reconstruction"]["p95_m"].get<double>();
+  };
+  const auto right = object({}), wrong = object({"--wrong-labels", "0.05"});
+  EXPECT_GT(p95_m(wrong), 2 * p95_m(right));
+  const auto other = object({"--wrong-labels", "0.05", "--wrong-labels-seed", "2"});
+  EXPECT_NE(p95_m(other), p95_m(wrong));
+  const auto filtered = object({"--wrong-labels", "0.05", "--filter-labels"});
+  EXPECT_LT(p95_m(filtered), p95_m(right) + 0.02);
+  EXPECT_LE(filtered["size"]["worst_difference_m"], 0.11);
 }
 
 TEST(Evaluate, WithMasksThatAreTooLarge) {

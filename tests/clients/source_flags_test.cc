@@ -1,6 +1,7 @@
 // Flags of a source that are for other kinds of source, or for what it does not hold.
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -50,14 +51,25 @@ TEST(SourceFlags, OfSourcesThatAreReadAreRefusedOfARecording) {
   std::vector<Flags> all = kOfSimulations;
   all.insert(all.end(), kOfFolders.begin(), kOfFolders.end());
   all.push_back({"--objects", "motions"});
+  const TemporaryFolder folder;
+  const std::string recording = folder / "drive.cwr";
+  std::ofstream(recording).close();
   for (const Flags& flags : all) {
-    ExpectRefused({"replay", "drive.cwr"}, flags, "drive.cwr is a recording");
+    ExpectRefused({"replay", recording}, flags, "drive.cwr is a recording");
   }
-  ExpectRefused({"info", "drive.cwr"}, {"--poses", "any"}, "drive.cwr is a recording");
+  ExpectRefused({"info", recording}, {"--poses", "any"}, "drive.cwr is a recording");
   ExpectRefused({"info", "map.bt"}, {"--poses", "any"}, "map.bt is an OctoMap file");
 }
 
 // What a folder is, a file in it tells; flags are judged before it is read.
+TEST(SourceFlags, OfWhatIsNotThereSayThat) {
+  for (const char* command : {"replay", "evaluate", "info"}) {
+    const Finished dut = With({command, "no_such_drive"}, {"--poses", "icp"});
+    EXPECT_EQ(dut.exit_code, 1) << command;
+    EXPECT_THAT(dut.err, HasSubstr("no_such_drive: no such file")) << command;
+  }
+}
+
 TEST(SourceFlags, AreRefusedOfEachFormatThatTheyAreNotFor) {
   const std::vector<std::tuple<std::string, std::string, std::vector<Flags>>> cases = {
       {"poses.csv", "is a folder of LiDAR scans", {{"--stride", "2"}, {"--max-depth", "5"}}},

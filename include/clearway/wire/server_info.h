@@ -56,8 +56,10 @@ struct ServerStatus : Versioned {
   std::string scene_hash;  // if asked for
   double uptime_s = 0;
   bool draining = false;
+  // Since the server started, whatever became of the scene.
   std::uint64_t frames_applied = 0, frames_refused = 0;
   std::uint64_t points_used = 0, points_not_finite = 0;
+
   std::uint64_t queued_frames = 0;
   std::uint64_t objects = 0;
   std::uint64_t static_observed_voxels = 0, static_occupied_voxels = 0;
