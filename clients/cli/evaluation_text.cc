@@ -231,7 +231,7 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   PrintBounds(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
-  if (found.fits.empty() && found.sizes.empty()) {
+  if (found.fits.empty() && found.sizes.empty() && !source.simulation) {
     out << "\nSizes, accuracy, completeness, solids, residue and what is said of the places that "
            "objects pass are not\nknown: the source tells poses of objects but no boxes.\n";
   }

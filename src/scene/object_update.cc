@@ -1,6 +1,7 @@
 #include "scene/object_update.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "clearway/map/ray_caster.h"
 #include "scene/position_bound.h"
@@ -68,17 +69,28 @@ std::optional<PoseGuess> GuessOfTrack(const MovingObject& object, Time stamp) {
   return PoseGuess{T_W_O, 0.05 + 1.0 * ahead_s, 0.01 + 0.1 * ahead_s};
 }
 
-// The source's T_W_O, mended by how the points fit the object's map and by how it went before, if
-// the source's poses are off.
+// While nothing of an object was seen, its poses followed from each other, and their errors added
+// up.
+void WidenByHiding(double hidden_s, std::vector<PoseGuess>& guesses) {
+  constexpr double kDrift_mps = 0.3, kDrift_radps = 0.1;
+  for (PoseGuess& guess : guesses) {
+    guess.sigma_m = std::hypot(guess.sigma_m, kDrift_mps * hidden_s);
+    guess.sigma_rad = std::hypot(guess.sigma_rad, kDrift_radps * hidden_s);
+  }
+}
+
+// The source's T_W_O, mended by how the points fit the object's map (if there are any) and by how
+// it went before, if the source's poses are off.
 Pose Mended(const Pose& T_W_O, const MovingObject& object, const LabelledCloud& cloud,
             std::span<const std::uint32_t> points, Time stamp, const SceneParams& params) {
   const double error_m = params.object_pose_error_m, error_rad = params.object_pose_error_rad;
-  if ((error_m == 0 && error_rad == 0) || points.empty()) return T_W_O;
+  if (error_m == 0 && error_rad == 0) return T_W_O;
   constexpr double kMeanOverSigma = 1.6;  // of the norm of three, over the sigma of one
   constexpr double kLeast = 1e-3;
   std::vector<PoseGuess> guesses = {{T_W_O, std::max(error_m / kMeanOverSigma, kLeast),
                                      std::max(error_rad / kMeanOverSigma, kLeast)}};
   if (const auto guess = GuessOfTrack(object, stamp)) guesses.push_back(*guess);
+  if (!points.empty()) WidenByHiding(ToSeconds(object.t_k() - object.last_seen), guesses);
   std::vector<Eigen::Vector3d> points_W;
   points_W.reserve(points.size());
   for (const std::uint32_t i : points) points_W.push_back(cloud.ends_W[i].cast<double>());

@@ -8,8 +8,8 @@
 
 namespace clearway {
 
-// The T_W_O that fits the points (at least one) best to the map and is not far from the guesses (at
-// least one). A few points are looked at, if there are many.
+// The T_W_O that fits the points best to the map and is not far from the guesses (at least one);
+// without points, between the guesses. A few points are looked at, if there are many.
 Pose RegisterView(const VoxelMap& map_O, std::span<const Eigen::Vector3d> points_W,
                   std::span<const PoseGuess> guesses);
 

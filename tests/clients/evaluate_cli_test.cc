@@ -207,8 +207,10 @@ TEST(Evaluate, WithoutLabels) {
   EXPECT_LT(with["mean_trail_voxels"], without["mean_trail_voxels"]) << with;
   EXPECT_GT(with["dynamic_voxels"], 0);
   EXPECT_EQ(without["dynamic_voxels"], 0);
-  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1"});
+  const Finished text =
+      Clearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1,2,3"});
   EXPECT_THAT(text.out, HasSubstr("movers that were not labelled"));
+  EXPECT_THAT(text.out, Not(HasSubstr("not\nknown")));
 }
 
 TEST(Evaluate, WhatIsKnownAgain) {
