@@ -61,7 +61,9 @@ CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summa
 CLI::Validator NotNegative() {
   return CLI::Validator(
       [](const std::string& text) {
-        return text.starts_with('-') ? text + " is negative" : std::string();
+        constexpr std::size_t kMostDigits = 19;  // of 64 bits
+        if (text.starts_with('-')) return text + " is negative";
+        return text.size() > kMostDigits ? text + " is too large" : std::string();
       },
       "");
 }

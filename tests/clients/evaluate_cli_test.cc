@@ -185,6 +185,12 @@ TEST(Evaluate, WithWrongLabels) {
   EXPECT_LE(filtered["size"]["worst_difference_m"], 0.11);
 }
 
+TEST(Evaluate, OnlyBySeedsThatAreNumbers) {
+  const Finished dut = Clearway({"evaluate", "sim:small", "--seed", "99999999999999999999"});
+  EXPECT_EQ(dut.exit_code, 2);
+  EXPECT_THAT(dut.err, HasSubstr("is too large"));
+}
+
 TEST(Evaluate, WithMasksThatAreTooLarge) {
   const auto worst_m = [](const std::string& degrees) {
     const Finished dut =
