@@ -101,7 +101,7 @@ ObjectExtent ExtentAt(const Footprint& footprint, double yaw_rad) {
 
 }  // namespace
 
-Span1d SpanOf(std::vector<double> values) { return SpanWithout(0.01, std::move(values)); }
+Span1d SpanOf(std::vector<double> values) { return SpanWithout(0.005, std::move(values)); }
 
 ObjectExtent ExtentOf(const MovingObject& object) { return ExtentOf(object, {}); }
 

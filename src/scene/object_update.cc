@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "clearway/map/ray_caster.h"
+#include "scene/mended_pose.h"
 #include "scene/position_bound.h"
 #include "scene/prospect.h"
-#include "scene/view_registration.h"
 
 namespace clearway {
 namespace {
-
-// By so much stamps of motions may be off.
-constexpr Duration kNoGap = std::chrono::milliseconds(10);
 
 // Poses to come whose time has come are forgotten: the new one counts.
 void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
@@ -56,47 +53,6 @@ PositionBound FirstBound(const MovingObject& object, const SceneParams& params) 
   return BoundOf({&last, 1}, last.stamp, {}, *object.solid, params);
 }
 
-// Where the object's last half second or so would carry it, once it is known for a few frames.
-std::optional<PoseGuess> GuessOfTrack(const MovingObject& object, Time stamp) {
-  constexpr std::size_t kFewest = 3;
-  constexpr Duration kBack = std::chrono::milliseconds(450);
-  const StampedPose& last = object.history.back();
-  if (object.history.size() < kFewest || stamp <= last.stamp) return std::nullopt;
-  const StampedPose* before = LastBefore(object, last.stamp);
-  while (before != object.history.data() && last.stamp - (before - 1)->stamp <= kBack) --before;
-  const double ahead_s = ToSeconds(stamp - last.stamp);
-  const Pose T_W_O = last.T_W_O * Exp(ahead_s * VelocityBetween(*before, last));
-  return PoseGuess{T_W_O, 0.05 + 1.0 * ahead_s, 0.01 + 0.1 * ahead_s};
-}
-
-// While nothing of an object was seen, its poses followed from each other, and their errors added
-// up.
-void WidenByHiding(double hidden_s, std::vector<PoseGuess>& guesses) {
-  constexpr double kDrift_mps = 0.3, kDrift_radps = 0.1;
-  for (PoseGuess& guess : guesses) {
-    guess.sigma_m = std::hypot(guess.sigma_m, kDrift_mps * hidden_s);
-    guess.sigma_rad = std::hypot(guess.sigma_rad, kDrift_radps * hidden_s);
-  }
-}
-
-// The source's T_W_O, mended by how the points fit the object's map (if there are any) and by how
-// it went before, if the source's poses are off.
-Pose Mended(const Pose& T_W_O, const MovingObject& object, const LabelledCloud& cloud,
-            std::span<const std::uint32_t> points, Time stamp, const SceneParams& params) {
-  const double error_m = params.object_pose_error_m, error_rad = params.object_pose_error_rad;
-  if (error_m == 0 && error_rad == 0) return T_W_O;
-  constexpr double kMeanOverSigma = 1.6;  // of the norm of three, over the sigma of one
-  constexpr double kLeast = 1e-3;
-  std::vector<PoseGuess> guesses = {{T_W_O, std::max(error_m / kMeanOverSigma, kLeast),
-                                     std::max(error_rad / kMeanOverSigma, kLeast)}};
-  if (const auto guess = GuessOfTrack(object, stamp)) guesses.push_back(*guess);
-  if (!points.empty()) WidenByHiding(ToSeconds(object.t_k() - object.last_seen), guesses);
-  std::vector<Eigen::Vector3d> points_W;
-  points_W.reserve(points.size());
-  for (const std::uint32_t i : points) points_W.push_back(cloud.ends_W[i].cast<double>());
-  return RegisterView(object.map_O, points_W, guesses);
-}
-
 // The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
 // surroundings are cleared.
 struct ClippedRays {
@@ -130,6 +86,13 @@ ClippedRays RaysNear(const MovingObject& object, const LabelledCloud& cloud,
   return rays;
 }
 
+// Where O begins: its voxels are then W's moved by a quarter, however a wrong label or two moves
+// the mean of the points. Not W's themselves: what people build has round measures, and of a
+// surface between two voxels rounding would fill both.
+Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W, double voxel_m) {
+  return voxel_m * ((p_W / voxel_m).array().round() + 0.25);
+}
+
 }  // namespace
 
 MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
@@ -141,7 +104,9 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
   MovingObject object;
   object.id = id;
   object.map_O = VoxelMap(params.object_resolution_m, params.Model());
-  object.history = {{stamp, {Eigen::Quaterniond::Identity(), centroid_W}}};
+  object.history = {
+      {stamp,
+       {Eigen::Quaterniond::Identity(), OriginNear(centroid_W, params.object_resolution_m)}}};
   object.first_seen = stamp;
   const Pose& T_W_O = object.history.back().T_W_O;
   if (clue.motion != nullptr) {
@@ -161,16 +126,17 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
   if (clue.motion != nullptr) {
     after_gap = clue.motion->from - object.t_k() > kNoGap;
     const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
-    const Pose T_W_O =
-        Mended(clue.motion->H_W * T_W_from, object, cloud, clue.points, stamp, params);  // eq. 2
+    const Pose T_W_T = CarriedOn(*clue.motion, T_W_from, object);  // eq. 2
+    const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
     if (!object.T_B_O) {
       object.T_B_O = Inverse(clue.pose->T_W_B) * PredictPose(object, stamp, params.horizon).T_W_O;
+      object.told.reset();
     }
-    const Pose T_W_O =
-        Mended(clue.pose->T_W_B * *object.T_B_O, object, cloud, clue.points, stamp, params);
+    const Pose T_W_T = clue.pose->T_W_B * *object.T_B_O;
+    const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     if (const StampedPose* before = LastBefore(object, stamp)) {
       object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
     }

@@ -27,8 +27,9 @@ using ClueMap = std::map<ObjectId, ObjectClue>;
 // A scene's objects while a frame is applied to them.
 using ObjectMap = std::map<ObjectId, std::shared_ptr<const MovingObject>>;
 
-// First sight: O at the centroid of the object's points (at least one), orientation identity. A
-// motion in the same frame gives the first velocity.
+// First sight: O near the centroid of the object's points (at least one), less than a voxel away,
+// where its grid does not depend on which points these are; orientation identity. A motion in the
+// same frame gives the first velocity.
 MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
                         const SceneParams& params);
 

@@ -182,6 +182,8 @@ MovingObject Joined(const MovingObject& lost, const MovingObject& young, const P
                     Time stamp, const SceneParams& params, ThreadPool& pool) {
   MovingObject joined = GoneOnAs(lost, young, T_Y_L, stamp, params);
   if (young.T_B_O) joined.T_B_O = *young.T_B_O * T_Y_L;
+  joined.told = young.told;
+  if (joined.told) joined.told->T_T_O = joined.told->T_T_O * T_Y_L;
   joined.last_seen = young.last_seen;
   joined.frames_seen += young.frames_seen;
   joined.also.push_back(young.id);

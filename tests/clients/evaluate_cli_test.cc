@@ -108,7 +108,7 @@ TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
     EXPECT_LT(object["reconstruction"]["accuracy_m"], 0.05) << object;
     EXPECT_EQ(object["solids"][1]["ahead_s"], 1);
     EXPECT_EQ(object["size"]["true_m"].size(), 3u);
-    EXPECT_GT(object["size"]["worst_difference_m"], 0);
+    EXPECT_LT(object["size"]["worst_difference_m"], 0.25);
     EXPECT_EQ(object["ways"].size(), 5u);
     EXPECT_LE(object["ways"][2]["truly_occupied"]["occupied"],
               json["ways"][2]["truly_occupied"]["occupied"]);

@@ -11,6 +11,7 @@ namespace {
 using testing::StartsWith;
 using testing_support::AddPoint;
 using testing_support::At;
+using testing_support::FirstOrigin;
 using testing_support::FrameAt;
 
 // Object 5 at (4, 0, 0) at 1 s, its last motion 1 m/s along x.
@@ -22,9 +23,18 @@ class FutureTest : public testing::Test {
     frame.motions = {{5, Pose::Translation(1, 0, 0), At(0)}};
     EXPECT_TRUE(dut_.Apply(frame).ok());
   }
+  // From where O is at first.
+  static Eigen::Vector3d Along(double x_m, double y_m, double z_m) {
+    return FirstOrigin({4, 0, 0}) + Eigen::Vector3d(x_m, y_m, z_m);
+  }
+  static Pose PoseAlong(double x_m, double y_m, double z_m) {
+    Pose T_W_O;
+    T_W_O.translation = Along(x_m, y_m, z_m);
+    return T_W_O;
+  }
   // 2 m/s along y.
   static std::vector<StampedPose> Sideways() {
-    return {{At(2), Pose::Translation(4, 2, 0)}, {At(3), Pose::Translation(4, 4, 0)}};
+    return {{At(2), PoseAlong(0, 2, 0)}, {At(3), PoseAlong(0, 4, 0)}};
   }
   const MovingObject& Object() {
     scene_ = dut_.Publish();
@@ -54,22 +64,22 @@ class FutureTest : public testing::Test {
 };
 
 TEST_F(FutureTest, CountsInsteadOfTheLastMotionUntilItIsWithdrawn) {
-  EXPECT_LT((Where(2) - Eigen::Vector3d(5, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(2) - Along(1, 0, 0)).norm(), 1e-6);
   ASSERT_TRUE(dut_.SetFuture(5, Sideways()).ok());
-  EXPECT_LT((Where(2.5) - Eigen::Vector3d(4, 3, 0)).norm(), 1e-6);
-  EXPECT_LT((Where(4) - Eigen::Vector3d(4, 6, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(2.5) - Along(0, 3, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(4) - Along(0, 6, 0)).norm(), 1e-6);
   ASSERT_TRUE(dut_.SetFuture(5, {}).ok());
-  EXPECT_LT((Where(2) - Eigen::Vector3d(5, 0, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(2) - Along(1, 0, 0)).norm(), 1e-6);
 }
 
 TEST_F(FutureTest, FramesForgetWhatHasComeAndThenTheLastMotionHolds) {
   ASSERT_TRUE(dut_.SetFuture(5, Sideways()).ok());
   Move(2, 1, {0, 1.5, 0});
   EXPECT_EQ(Object().future.size(), 1u) << "a pose of t_k itself has come";
-  EXPECT_LT((Where(2.5) - Eigen::Vector3d(4, 2.75, 0)).norm(), 1e-6) << "from where it is";
+  EXPECT_LT((Where(2.5) - Along(0, 2.75, 0)).norm(), 1e-6) << "from where it is";
   Move(3.5, 2, {0, 0, 3});
   EXPECT_TRUE(Object().future.empty());
-  EXPECT_LT((Where(4.5) - Eigen::Vector3d(4, 1.5, 5)).norm(), 1e-6);
+  EXPECT_LT((Where(4.5) - Along(0, 1.5, 5)).norm(), 1e-6);
 }
 
 // Whatever frames find shortly before the end.
@@ -77,13 +87,13 @@ TEST_F(FutureTest, GoesOnAsItWasStated) {
   ASSERT_TRUE(dut_.SetFuture(5, Sideways()).ok());
   Move(2.999, 1, {0.1, 3.9, 0});
   EXPECT_EQ(Object().future.size(), 1u);
-  EXPECT_LT((Where(4) - Eigen::Vector3d(4, 6, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(4) - Along(0, 6, 0)).norm(), 1e-6);
   std::vector<StampedPose> parks = Sideways();
   for (StampedPose& pose : parks) pose.stamp += FromSeconds(2);
   parks.push_back({At(6), parks.back().T_W_O});
   ASSERT_TRUE(dut_.SetFuture(5, parks).ok());
   Move(5.5, 2.999, {0, 0.05, 0});
-  EXPECT_LT((Where(900) - Eigen::Vector3d(4, 4, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(900) - Along(0, 4, 0)).norm(), 1e-6);
 }
 
 TEST_F(FutureTest, BridgesAFrameWithoutAMotion) {
@@ -92,23 +102,23 @@ TEST_F(FutureTest, BridgesAFrameWithoutAMotion) {
   AddPoint(frame, 5, {4, 3, 0});
   ASSERT_TRUE(dut_.Apply(frame).ok());
   EXPECT_TRUE(Object().bridged);
-  EXPECT_LT((Where(2.5) - Eigen::Vector3d(4, 3, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(2.5) - Along(0, 3, 0)).norm(), 1e-6);
   frame = FrameAt(4);
   AddPoint(frame, 5, {4, 6, 0});
   ASSERT_TRUE(dut_.Apply(frame).ok());
   EXPECT_TRUE(Object().future.empty());
-  EXPECT_LT((Where(5) - Eigen::Vector3d(4, 8, 0)).norm(), 1e-6) << "as its future ended";
+  EXPECT_LT((Where(5) - Along(0, 8, 0)).norm(), 1e-6) << "as its future ended";
 }
 
 // The horizon counts from the future's end, and within it an object seen again is the same one.
 TEST_F(FutureTest, PlacesItBeyondTheHorizonOfItsLastMotion) {
-  ASSERT_TRUE(dut_.SetFuture(5, {{At(8), Pose::Translation(4, 7, 0)}}).ok());
+  ASSERT_TRUE(dut_.SetFuture(5, {{At(8), PoseAlong(0, 7, 0)}}).ok());
   Frame frame = FrameAt(9);
   AddPoint(frame, 5, {4, 8, 0});
   const auto report = dut_.Apply(frame);
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->objects_created, 0u);
-  EXPECT_LT((Where(9) - Eigen::Vector3d(4, 8, 0)).norm(), 1e-6);
+  EXPECT_LT((Where(9) - Along(0, 8, 0)).norm(), 1e-6);
 }
 
 TEST_F(FutureTest, BadInputIsNamed) {

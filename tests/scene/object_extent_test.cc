@@ -54,11 +54,11 @@ TEST(ObjectExtent, IsNotThatOfAFewVoxelsFarOff) {
   EXPECT_NEAR(ExtentOf(spoilt).size_m.y(), before.size_m.y(), 0.15);
 }
 
-TEST(SpanOf, LeavesOutAHundredthAtEachEnd) {
+TEST(SpanOf, LeavesOutOneOfTwoHundredAtEachEnd) {
   std::vector<double> values;
-  for (int i = 199; i >= 0; --i) values.push_back(i);
-  EXPECT_EQ(SpanOf(values).length, 195);  // from 2 to 197
-  EXPECT_EQ(SpanOf(values).middle, 99.5);
+  for (int i = 399; i >= 0; --i) values.push_back(i);
+  EXPECT_EQ(SpanOf(values).length, 395);  // from 2 to 397
+  EXPECT_EQ(SpanOf(values).middle, 199.5);
   EXPECT_EQ(SpanOf({7, 3}).length, 4);
   EXPECT_EQ(SpanOf({7}).length, 0);
   EXPECT_EQ(SpanOf({7}).middle, 7);

@@ -26,6 +26,11 @@ inline void AddPoint(Frame& frame, ObjectId label, const Eigen::Vector3d& p_S) {
   frame.labels.push_back(label);
 }
 
+// Where O begins (see FirstSight) if its first points lie about a corner of W's voxels of 0.1 m.
+inline Eigen::Vector3d FirstOrigin(const Eigen::Vector3d& corner_W) {
+  return corner_W + Eigen::Vector3d::Constant(0.025);
+}
+
 // Points on a grid over the surface of a box, given in the box's frame.
 inline std::vector<Eigen::Vector3d> BoxSurface(const Eigen::Vector3d& size_m, double spacing_m) {
   std::vector<Eigen::Vector3d> points;

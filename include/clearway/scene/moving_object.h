@@ -57,6 +57,15 @@ struct PositionBound {
   bool operator==(const PositionBound&) const = default;
 };
 
+// What a source whose poses are off (SceneParams::object_pose_error_m) says of an object.
+struct ToldPose {
+  Time stamp;
+  // T is O where the source's poses, or its motions one after the other, carry it by themselves.
+  Pose T_W_T;
+  Pose T_T_O;     // by how much they were off, evened out over the last views
+  int views = 0;  // of the object that this is taken from
+};
+
 // By how much objects are grown at a time to come.
 struct ObjectGrowth {
   double mps = 0;             // times the seconds since their t_k
@@ -101,6 +110,8 @@ struct MovingObject {
   Time tracked_since;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;
+  // For whoever applies frames alone: mirrors do not have it, and it counts for no comparison.
+  std::optional<ToldPose> told;
 
   Time first_seen;
   Time last_seen;  // last frame with points of it

@@ -10,8 +10,8 @@
 namespace clearway {
 
 // How far apart the smallest and the greatest of the values are, and what lies in the middle of
-// them, without the outermost 1 % at each end: a few voxels that a wrong label or pose has left are
-// not what makes an object large. There must be a value.
+// them, without the outermost 0.5 % at each end: a few voxels that a wrong label or pose has left
+// are not what makes an object large. There must be a value.
 struct Span1d {
   double length = 0, middle = 0;
 };
