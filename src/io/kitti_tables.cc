@@ -1,6 +1,7 @@
 #include "io/kitti_tables.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -50,6 +51,18 @@ absl::StatusOr<Pose> CameraFromSensor(std::vector<Words>& lines, const Path& pat
                       absl::StrCat(path.string(), ", R_rect times Tr_velo_cam"));
 }
 
+// P2, of which the left three columns turn directions to pixels and back.
+absl::StatusOr<Matrix34> Projection(std::vector<Words>& lines, const Path& path) {
+  constexpr double kFlat = 1e-9;  // over a cube of the same norm
+  const auto numbers = Matrix(lines, path, {"P2"}, 12);
+  if (!numbers.ok()) return numbers.status();
+  const Matrix34 P = Eigen::Map<const Matrix34>(numbers->data());
+  const Eigen::Matrix3d turning = P.leftCols<3>();
+  if (turning.determinant() > kFlat * std::pow(turning.norm(), 3)) return P;
+  return absl::InvalidArgumentError(
+      absl::StrCat(path.string(), ", P2: is not the projection of a camera"));
+}
+
 // x along the length, z up: a camera's y goes down, and at no turn the length is along its x. KITTI
 // gives the middle of the bottom.
 Pose BoxInCamera(const Eigen::Vector3d& bottom_C, double height_m, double turn_rad) {
@@ -66,7 +79,7 @@ Pose BoxInCamera(const Eigen::Vector3d& bottom_C, double height_m, double turn_r
 absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
   auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
   if (!lines.ok()) return lines.status();
-  const auto projection = Matrix(*lines, path, {"P2"}, 12);
+  const auto projection = Projection(*lines, path);
   if (!projection.ok()) return projection.status();
   const auto T_C_S = CameraFromSensor(*lines, path);
   if (!T_C_S.ok()) return T_C_S.status();
@@ -75,7 +88,7 @@ absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
   const auto T_S_I = PoseOfMatrix(Eigen::Map<const Matrix34>(imu->data()),
                                   absl::StrCat(path.string(), ", Tr_imu_velo"));
   if (!T_S_I.ok()) return T_S_I.status();
-  return KittiCalibration{*T_C_S, *T_S_I, Eigen::Map<const Matrix34>(projection->data())};
+  return KittiCalibration{*T_C_S, *T_S_I, *projection};
 }
 
 // The raw data's development kit: Mercator's projection, scaled to be true where the drive begins.

@@ -145,6 +145,9 @@ TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
   EXPECT_THAT(ErrorWith("calib/0003.txt",
                         absl::StrReplaceAll(kCalibration, {{"cam 0 -1 0 0", "cam 0 -2 0 0"}})),
               HasSubstr("Tr_velo_cam: not a rotation"));
+  EXPECT_THAT(
+      ErrorWith("calib/0003.txt", absl::StrReplaceAll(kCalibration, {{"P2: 700", "P2: 0"}})),
+      HasSubstr("P2: is not the projection of a camera"));
   folder_.Write("calib/0003.txt", kCalibration);
   EXPECT_THAT(ErrorWith("oxts/0003.txt", ""), HasSubstr("no frame"));
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
