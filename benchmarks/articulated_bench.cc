@@ -67,7 +67,8 @@ void Predict(const Retell& retell, const ScenarioOptions& options, const std::st
       if (has_parts || world.FindObject(id)->part_of != kStaticLabel) all += overlaps[i];
     }
     state.counters["articulated_solids_f" + name] = all.FScore();
-    PredictionErrors parts{kAhead[i].first, {}, {}, 0};
+    PredictionErrors parts;
+    parts.ahead = kAhead[i].first;
     for (const auto& [id, errors] : score.Errors()) {
       if (world.FindObject(id)->part_of != kStaticLabel) parts += errors[i];
     }

@@ -199,6 +199,9 @@ void Register(const Effort& effort) {
   Add("prediction_street", once, [=](auto& state) { PredictStreet(state, "", street); });
   Add("prediction_street_registered", once,
       [=](auto& state) { PredictStreet(state, "_registered", Registered(street)); });
+  Add("prediction_street_registered_last_motion", once, [=](auto& state) {
+    PredictStreet(state, "_registered_last_motion", Registered(ByLastMotion()));
+  });
   Add("prediction_street_last_motion", once,
       [=](auto& state) { PredictStreet(state, "_last_motion", ByLastMotion()); });
   Add("prediction_lab", once, [=](auto& state) { PredictLab(state, "", ByTrack()); });

@@ -93,7 +93,7 @@ AT_MOST_TIMES = {
 BETWEEN = {
     f"prediction_within{drive}_{ahead}s": (0.9, 0.98)
     for drive in ("", "_oxts", "_oxts_mended", "_av2", "_table1", "_table1_registered",
-                  "_table1_last_motion", "_lab", "_lab_last_motion")
+                  "_table1_registered_last_motion", "_table1_last_motion", "_lab", "_lab_last_motion")
     for ahead in ("0.5", "1", "2", "3")
 }
 

@@ -25,36 +25,11 @@ namespace {
 
 using Fits = std::map<ObjectId, ObjectFit>;
 
-// Of the object that fits worst.
-double AccuracyVoxels(const Fits& fits) {
-  double worst_voxels = 0;
-  for (const auto& [id, fit] : fits) {
-    worst_voxels = std::max(worst_voxels, fit.Accuracy_m() / fit.voxel_m);
-  }
-  return worst_voxels;
-}
-
-// Of the pieces of all.
-double Completeness(const Fits& fits) {
-  std::size_t met = 0, covered = 0;
-  for (const auto& [id, fit] : fits) {
-    met += fit.met;
-    covered += fit.covered;
-  }
-  return static_cast<double>(covered) / static_cast<double>(met);
-}
-
-// Of the object that is covered worst.
-double WorstCompleteness(const Fits& fits) {
-  double worst = 1;
-  for (const auto& [id, fit] : fits) worst = std::min(worst, fit.Completeness());
-  return worst;
-}
-
 void CountObjects(const Fits& fits, const std::string& suffix, benchmark::State& state) {
-  state.counters["reconstruction_accuracy_voxels" + suffix] = AccuracyVoxels(fits);
-  state.counters["reconstruction_completeness" + suffix] = Completeness(fits);
-  state.counters["reconstruction_worst_completeness" + suffix] = WorstCompleteness(fits);
+  const SceneFit scene = Together(fits);
+  state.counters["reconstruction_accuracy_voxels" + suffix] = scene.worst_accuracy_voxels;
+  state.counters["reconstruction_completeness" + suffix] = scene.together.Completeness();
+  state.counters["reconstruction_worst_completeness" + suffix] = scene.worst_completeness;
   state.counters["reconstruction_objects" + suffix] = static_cast<double>(fits.size());
 }
 
@@ -71,6 +46,7 @@ void CountSolids(const std::map<ObjectId, std::vector<SolidOverlap>>& overlaps,
   SolidOverlap all;
   for (const auto& [id, of_object] : overlaps) all += of_object[0];
   state.counters["prediction_solids_1s_f" + suffix] = all.FScore();
+  state.counters["prediction_whole_solids_1s_f" + suffix] = all.WholeFScore();
 }
 
 struct Setup {
@@ -126,9 +102,9 @@ void WithNoise(benchmark::State& state, const ScenarioOptions& noisy) {
     const auto compare = [&](const Setup& setup, const std::string& suffix) {
       const Fits fits = Reconstruct(setup, suffix, state);
       state.counters["reconstruction" + suffix + "_accuracy_x"] =
-          AccuracyVoxels(as_told) / AccuracyVoxels(fits);
+          Together(as_told).worst_accuracy_voxels / Together(fits).worst_accuracy_voxels;
       state.counters["reconstruction" + suffix + "_completeness_x"] =
-          Completeness(fits) / Completeness(as_told);
+          Together(fits).together.Completeness() / Together(as_told).together.Completeness();
     };
     Setup setup{.options = noisy, .registered = true};
     compare(setup, "_registered");
@@ -149,7 +125,7 @@ void WithFilter(benchmark::State& state, const ScenarioOptions& exact) {
     wrong.wrong_labels = 0.05;
     const Fits of_wrong = Reconstruct(wrong, "_mislabelled", state);
     state.counters["reconstruction_mislabelled_accuracy_x"] =
-        AccuracyVoxels(of_wrong) / AccuracyVoxels(fits);
+        Together(of_wrong).worst_accuracy_voxels / Together(fits).worst_accuracy_voxels;
   }
 }
 

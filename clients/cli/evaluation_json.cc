@@ -14,12 +14,30 @@ Json ToJson(const ObjectFit& fit) {
           {"completeness", fit.Completeness()}};
 }
 
+Json ToJson(const SceneFit& fit) {
+  Json json = ToJson(fit.together);
+  json["worst_accuracy_voxels"] = fit.worst_accuracy_voxels;
+  json["worst_completeness"] = fit.worst_completeness;
+  return json;
+}
+
+Json ToJson(const Confusion::Counts& counts) {
+  return {{"free", counts[Confusion::kFree]},
+          {"occupied", counts[Confusion::kOccupied]},
+          {"unknown", counts[Confusion::kUnknown]}};
+}
+
 Json ToJson(const StaticFit& fit) {
-  return {
-      {"occupied_voxels", fit.occupied},         {"free_voxels", fit.free},
-      {"residual_voxels", fit.Residual()},       {"occupied_precision", fit.OccupiedPrecision()},
-      {"occupied_recall", fit.OccupiedRecall()}, {"free_precision", fit.FreePrecision()},
-      {"free_recall", fit.FreeRecall()}};
+  return {{"occupied_voxels", fit.occupied},
+          {"free_voxels", fit.free},
+          {"residual_voxels", fit.Residual()},
+          {"occupied_precision", fit.OccupiedPrecision()},
+          {"occupied_recall", fit.OccupiedRecall()},
+          {"free_precision", fit.FreePrecision()},
+          {"free_recall", fit.FreeRecall()},
+          {"grid",
+           {{"truly_free", ToJson(fit.grid.truly_free)},
+            {"surfaces_met", ToJson(fit.grid.truly_occupied)}}}};
 }
 
 Json ToJson(const std::vector<PredictionErrors>& of_object) {
@@ -29,6 +47,8 @@ Json ToJson(const std::vector<PredictionErrors>& of_object) {
                     {"count", e.errors_m.size()},
                     {"median_m", e.Median()},
                     {"p95_m", e.Quantile(kMost)},
+                    {"median_turn_rad", e.TurnQuantile_rad(0.5)},
+                    {"p95_turn_rad", e.TurnQuantile_rad(kMost)},
                     {"median_bound_m", e.MedianBound()},
                     {"within_bound", e.Within()}});
   }
@@ -57,15 +77,11 @@ Json ToJson(const std::vector<SolidOverlap>& overlaps) {
     json.push_back({{"ahead_s", ToSeconds(kAhead[i])},
                     {"precision", overlaps[i].Precision()},
                     {"recall", overlaps[i].Recall()},
-                    {"f_score", overlaps[i].FScore()}});
+                    {"f_score", overlaps[i].FScore()},
+                    {"whole_recall", overlaps[i].WholeRecall()},
+                    {"whole_f_score", overlaps[i].WholeFScore()}});
   }
   return json;
-}
-
-Json ToJson(const Confusion::Counts& counts) {
-  return {{"free", counts[Confusion::kFree]},
-          {"occupied", counts[Confusion::kOccupied]},
-          {"unknown", counts[Confusion::kUnknown]}};
 }
 
 // By kWaysAhead.
@@ -101,6 +117,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
     json["objects"].push_back(object);
   }
   json["prediction"] = ToJson(Together(found.predictions));
+  if (!found.fits.empty()) json["reconstruction"] = ToJson(Together(found.fits));
   if (!found.solids.empty()) json["solids"] = ToJson(Together(found.solids));
   if (!found.ways.empty()) json["ways"] = ToJson(found.ways);
   if (found.identities) {

@@ -1,66 +1,16 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/report/table.h"
 #include "cli/evaluation.h"
+#include "cli/prediction_text.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
 namespace {
-
-std::string TextOf(double value, int digits) {
-  return std::isnan(value) ? "-" : Fixed(value, digits);
-}
-
-void PrintPredictions(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  out << "How far from its true place each object is predicted, in metres: median, and what 95 % "
-         "of the\npredictions do not exceed.\n\n";
-  std::vector<std::string> header = {"id", "what", "predictions"};
-  for (const Duration ahead : kAhead) {
-    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
-    header.push_back("95 %");
-  }
-  Table table(header);
-  for (const auto& [id, of_object] : found.predictions) {
-    std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id),
-                                    absl::StrCat(of_object[0].errors_m.size())};
-    for (const PredictionErrors& e : of_object) {
-      row.push_back(TextOf(e.Median(), 2));
-      row.push_back(TextOf(e.Quantile(kMost), 2));
-    }
-    table.AddRow(row);
-  }
-  out << table.ToString();
-}
-
-void PrintBounds(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  out << "\nHow far it was said to be at most, 95 times of 100, in metres: median; and how often "
-         "it was no\nfarther.\n\n";
-  std::vector<std::string> header = {"id", "what"};
-  for (const Duration ahead : kAhead) {
-    header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
-    header.push_back("within");
-  }
-  Table table(header);
-  const auto add = [&](const std::string& id, const std::string& name,
-                       const std::vector<PredictionErrors>& errors) {
-    std::vector<std::string> row = {id, name};
-    for (const PredictionErrors& e : errors) {
-      row.push_back(TextOf(e.MedianBound(), 2));
-      row.push_back(TextOf(e.Within(), 3));
-    }
-    table.AddRow(row);
-  };
-  for (const auto& [id, of_object] : found.predictions) {
-    add(absl::StrCat(id), NameOf(source, id), of_object);
-  }
-  if (!found.predictions.empty()) add("", "all", Together(found.predictions));
-  out << table.ToString();
-}
 
 void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "\nHow far from the true surface the occupied voxels of each object are, in metres: "
@@ -75,9 +25,12 @@ void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& fo
   Table table({"id", "what", "frames", "voxels", "error", "95 %", "covered"});
   for (const auto& [id, fit] : found.fits) {
     table.AddRow({absl::StrCat(id), NameOf(source, id), absl::StrCat(fit.growth.size()),
-                  absl::StrCat(fit.errors_m.size()), TextOf(fit.Accuracy_m(), 3),
-                  TextOf(fit.Quantile_m(kMost), 3), TextOf(fit.Completeness(), 3)});
+                  absl::StrCat(fit.errors_m.size()), FixedOrDash(fit.Accuracy_m(), 3),
+                  FixedOrDash(fit.Quantile_m(kMost), 3), FixedOrDash(fit.Completeness(), 3)});
   }
+  const ObjectFit all = Together(found.fits).together;
+  table.AddRow({"", "all", "", absl::StrCat(all.errors_m.size()), FixedOrDash(all.Accuracy_m(), 3),
+                FixedOrDash(all.Quantile_m(kMost), 3), FixedOrDash(all.Completeness(), 3)});
   out << table.ToString();
 }
 
@@ -88,35 +41,11 @@ void PrintSizes(std::ostream& out, const TrueSource& source, const Evaluation& f
   for (const auto& [id, size] : found.sizes) {
     std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id)};
     for (int axis = 0; axis < 3; ++axis) {
-      row.push_back(
-          absl::StrCat(TextOf(size.mapped_m[axis], 2), " / ", TextOf(size.true_m[axis], 2)));
+      row.push_back(absl::StrCat(FixedOrDash(size.mapped_m[axis], 2), " / ",
+                                 FixedOrDash(size.true_m[axis], 2)));
     }
     table.AddRow(row);
   }
-  out << table.ToString();
-}
-
-void PrintSolids(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  out << "\nHow well the solids that are predicted agree with the true ones to within a voxel: "
-         "F-scores.\n";
-  if (!source.simulation) {
-    out << "The true ones are the recorded boxes; of these what lies in the hull of the points "
-           "measured has to be\nfound.\n";
-  }
-  out << "\n";
-  std::vector<std::string> header = {"id", "what"};
-  for (const Duration ahead : kAhead) header.push_back(absl::StrCat(ToSeconds(ahead), " s"));
-  Table table(header);
-  const auto add = [&](const std::string& id, const std::string& name,
-                       const std::vector<SolidOverlap>& overlaps) {
-    std::vector<std::string> row = {id, name};
-    for (const SolidOverlap& overlap : overlaps) row.push_back(TextOf(overlap.FScore(), 3));
-    table.AddRow(row);
-  };
-  for (const auto& [id, overlaps] : found.solids) {
-    add(absl::StrCat(id), NameOf(source, id), overlaps);
-  }
-  add("", "all", Together(found.solids));
   out << table.ToString();
 }
 
@@ -152,13 +81,16 @@ void PrintResidue(std::ostream& out, const BoxResidue& residue) {
       << kStaticNotKnown << ".\n";
 }
 
-// By what is truly there: what was said of it, in percent.
-void AddShares(const Confusion& confusion, std::vector<std::string>& row) {
-  for (const Confusion::Counts& counts : {confusion.truly_free, confusion.truly_occupied}) {
-    for (const auto said : {Confusion::kFree, Confusion::kOccupied, Confusion::kUnknown}) {
-      row.push_back(TextOf(100 * Confusion::Share(counts, said), 2));
-    }
+// What was said of places, in percent.
+void AddShares(const Confusion::Counts& counts, std::vector<std::string>& row) {
+  for (const auto said : {Confusion::kFree, Confusion::kOccupied, Confusion::kUnknown}) {
+    row.push_back(FixedOrDash(100 * Confusion::Share(counts, said), 2));
   }
+}
+
+void AddShares(const Confusion& confusion, std::vector<std::string>& row) {
+  AddShares(confusion.truly_free, row);
+  AddShares(confusion.truly_occupied, row);
 }
 
 void PrintWays(std::ostream& out, const TrueSource& source, const Evaluation& found) {
@@ -193,12 +125,23 @@ void PrintStatic(std::ostream& out, const StaticFit& fit) {
          "are so, how\nmany are (precision); of the observed ones that are so, how many it says "
          "(recall).\n\n";
   Table table({"", "voxels", "precision", "recall"});
-  table.AddRow({"occupied", absl::StrCat(fit.occupied), TextOf(fit.OccupiedPrecision(), 4),
-                TextOf(fit.OccupiedRecall(), 4)});
-  table.AddRow({"free", absl::StrCat(fit.free), TextOf(fit.FreePrecision(), 4),
-                TextOf(fit.FreeRecall(), 4)});
+  table.AddRow({"occupied", absl::StrCat(fit.occupied), FixedOrDash(fit.OccupiedPrecision(), 4),
+                FixedOrDash(fit.OccupiedRecall(), 4)});
+  table.AddRow({"free", absl::StrCat(fit.free), FixedOrDash(fit.FreePrecision(), 4),
+                FixedOrDash(fit.FreeRecall(), 4)});
   out << table.ToString() << "\n"
-      << fit.Residual() << " occupied voxels are where nothing static is.\n";
+      << fit.Residual() << " occupied voxels are where nothing static is.\n\n"
+      << "What it says, in percent: right there, of a grid over its blocks where there is truly "
+         "nothing; and\nwhere rays met a surface.\n\n";
+  Table grid({"truly", "free", "occupied", "unknown"});
+  const auto add = [&](const std::string& truly, const Confusion::Counts& counts) {
+    std::vector<std::string> row = {truly};
+    AddShares(counts, row);
+    grid.AddRow(row);
+  };
+  add("nothing", fit.grid.truly_free);
+  add("surface", fit.grid.truly_occupied);
+  out << grid.ToString();
 }
 
 void PrintIdentities(std::ostream& out, const Identities& found) {
@@ -209,9 +152,9 @@ void PrintIdentities(std::ostream& out, const Identities& found) {
 
 void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
   const auto per_frame = [&](std::int64_t count) {
-    return TextOf(static_cast<double>(count) / static_cast<double>(found.frames), 1);
+    return FixedOrDash(static_cast<double>(count) / static_cast<double>(found.frames), 1);
   };
-  out << "\nOf movers that were not labelled, " << TextOf(found.ShareOccupied(), 3)
+  out << "\nOf movers that were not labelled, " << FixedOrDash(found.ShareOccupied(), 3)
       << " of the points lay in voxels that were occupied at once.\nVoxels that they had left but "
          "that stayed occupied: "
       << per_frame(found.trail) << " on average over the frames, at most " << found.most_trail
@@ -228,7 +171,6 @@ void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << source.frames.description << ", against " << source.truth.description << "\n\n";
   PrintPredictions(out, source, found);
-  PrintBounds(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
   if (found.fits.empty() && found.sizes.empty() && !source.simulation) {

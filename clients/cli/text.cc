@@ -9,6 +9,10 @@ namespace clearway::cli {
 
 std::string Fixed(double value, int decimals) { return absl::StrFormat("%.*f", decimals, value); }
 
+std::string FixedOrDash(double value, int decimals) {
+  return std::isnan(value) ? "-" : Fixed(value, decimals);
+}
+
 std::string Grouped(std::uint64_t count) {
   if (count < 1000) return absl::StrCat(count);
   return absl::StrCat(Grouped(count / 1000), ",", absl::Dec(count % 1000, absl::kZeroPad3));

@@ -10,6 +10,8 @@
 namespace clearway::cli {
 
 std::string Fixed(double value, int decimals);
+// The same; "-" for NaN.
+std::string FixedOrDash(double value, int decimals);
 // "1,234,567".
 std::string Grouped(std::uint64_t count);
 // "987", "12.3 k", "2.81 M".

@@ -12,15 +12,16 @@ namespace clearway::cli {
 
 void AddErrorFlags(CLI::App* command, ErrorFlags* flags) {
   const char* const group = "Errors of the source";
-  command
-      ->add_option("--wrong-labels", flags->wrong_labels,
-                   "Give this share of the points a wrong label")
-      ->check(Between(0, 1))
-      ->capture_default_str()
-      ->group(group);
+  CLI::Option* const wrong_labels = command
+                                        ->add_option("--wrong-labels", flags->wrong_labels,
+                                                     "Give this share of the points a wrong label")
+                                        ->check(Between(0, 1))
+                                        ->capture_default_str()
+                                        ->group(group);
   command
       ->add_option("--wrong-labels-seed", flags->wrong_labels_seed,
                    "Which points get a wrong label, and which one")
+      ->needs(wrong_labels)
       ->check(NotNegative())
       ->capture_default_str()
       ->group(group);

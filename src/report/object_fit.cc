@@ -36,6 +36,27 @@ double ObjectFit::Completeness() const {
                   : static_cast<double>(covered) / static_cast<double>(met);
 }
 
+ObjectFit& ObjectFit::operator+=(const ObjectFit& other) {
+  voxel_m = other.voxel_m;
+  const auto middle = static_cast<std::ptrdiff_t>(errors_m.size());
+  errors_m.insert(errors_m.end(), other.errors_m.begin(), other.errors_m.end());
+  std::inplace_merge(errors_m.begin(), errors_m.begin() + middle, errors_m.end());
+  met += other.met;
+  covered += other.covered;
+  return *this;
+}
+
+SceneFit Together(const std::map<ObjectId, ObjectFit>& fits) {
+  SceneFit scene;
+  for (const auto& [id, fit] : fits) {
+    scene.together += fit;
+    scene.worst_accuracy_voxels =
+        std::max(scene.worst_accuracy_voxels, fit.Accuracy_m() / fit.voxel_m);
+    scene.worst_completeness = std::min(scene.worst_completeness, fit.Completeness());
+  }
+  return scene;
+}
+
 void ObjectFitter::Add(const SceneSnapshot& scene, const Pose& T_R_W) {
   for (const auto& object : scene.objects) {
     if (object->last_seen != scene.stamp || !bodies_.Find(object->id)) continue;

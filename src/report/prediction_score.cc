@@ -27,9 +27,14 @@ double PredictionErrors::Quantile(double share) const { return QuantileOf(errors
 
 double PredictionErrors::MedianBound() const { return QuantileOf(bounds_m, 0.5); }
 
+double PredictionErrors::TurnQuantile_rad(double share) const {
+  return QuantileOf(turns_rad, share);
+}
+
 PredictionErrors& PredictionErrors::operator+=(const PredictionErrors& other) {
   MergeInto(errors_m, other.errors_m);
   MergeInto(bounds_m, other.bounds_m);
+  MergeInto(turns_rad, other.turns_rad);
   within += other.within;
   return *this;
 }
@@ -49,12 +54,13 @@ void PredictionScore::Add(const SceneSnapshot& scene) {
       const auto box = then > truth_.end ? std::nullopt : BoxOf(truth_, object->id, then);
       if (!box) continue;
       const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
-      const Eigen::Vector3d predicted_W = T_W_O * (T_O_W * now->T_W_B.translation);
-      const double error_m = (predicted_W - box->T_W_B.translation).norm();
+      const Pose predicted_W = T_W_O * (T_O_W * now->T_W_B);
+      const double error_m = (predicted_W.translation - box->T_W_B.translation).norm();
       const double bound_m = object->bound.At(ToSeconds(ahead_[i]));
       errors[i].errors_m.push_back(error_m);
       errors[i].bounds_m.push_back(bound_m);
       errors[i].within += error_m <= bound_m;
+      errors[i].turns_rad.push_back(predicted_W.rotation.angularDistance(box->T_W_B.rotation));
     }
   }
 }
@@ -66,6 +72,7 @@ std::map<ObjectId, std::vector<PredictionErrors>> PredictionScore::Errors() cons
       of_object[i].ahead = ahead_[i];
       std::ranges::sort(of_object[i].errors_m);
       std::ranges::sort(of_object[i].bounds_m);
+      std::ranges::sort(of_object[i].turns_rad);
     }
   }
   return result;

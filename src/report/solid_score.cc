@@ -64,7 +64,7 @@ VoxelMarks PredictedOf(const Compared& c, const Aabb& box_W) {
 }
 
 // Each solid is looked through on its own, and beside each of its voxels for the other: they may be
-// far apart. Of the bodies, only what lies about the predicted solid may make that right.
+// far apart.
 SolidOverlap OverlapOf(const Compared& c) {
   const VoxelGrid& grid = c.object.map_O.grid();
   const Aabb predicted_box_W = Transformed(c.T_W_O, c.object.solid->box_O);
@@ -77,7 +77,7 @@ SolidOverlap OverlapOf(const Compared& c) {
   }
   const Aabb beside_W = predicted_box_W.Padded(grid.resolution_m());
   if (!CanLookThrough(grid, beside_W)) return {};
-  if (!seen_box_W.Empty() && !CanLookThrough(grid, seen_box_W)) return {};
+  if (!bodies_box_W.Empty() && !CanLookThrough(grid, bodies_box_W)) return {};
 
   const auto in_any_body = [&](auto holds) {
     return [&, holds](const Eigen::Vector3d& p_W) {
@@ -88,8 +88,7 @@ SolidOverlap OverlapOf(const Compared& c) {
     };
   };
   const VoxelMarks predicted = PredictedOf(c, predicted_box_W);
-  VoxelMarks truly(
-      grid, Aabb{beside_W.min.cwiseMax(bodies_box_W.min), beside_W.max.cwiseMin(bodies_box_W.max)});
+  VoxelMarks truly(grid, bodies_box_W);
   VoxelMarks seen(grid, seen_box_W);
   truly.MarkIf(in_any_body(&SeenBody::Holds));
   seen.MarkIf(in_any_body(&SeenBody::HoldsSeen));
@@ -102,6 +101,10 @@ SolidOverlap OverlapOf(const Compared& c) {
     ++overlap.seen;
     overlap.seen_found += predicted.AtOrBeside(key);
   });
+  truly.ForEachMarked([&](VoxelKey key) {
+    ++overlap.whole;
+    overlap.whole_found += predicted.AtOrBeside(key);
+  });
   return overlap;
 }
 
@@ -112,6 +115,8 @@ SolidOverlap& SolidOverlap::operator+=(const SolidOverlap& other) {
   predicted_right += other.predicted_right;
   seen += other.seen;
   seen_found += other.seen_found;
+  whole += other.whole;
+  whole_found += other.whole_found;
   return *this;
 }
 

@@ -67,6 +67,29 @@ bool AnyBeside(const VoxelMap& map, VoxelKey key, VoxelState state) {
   return false;
 }
 
+Confusion::Said SaidOf(VoxelState state) {
+  switch (state) {
+    case VoxelState::kFree:
+      return Confusion::kFree;
+    case VoxelState::kOccupied:
+      return Confusion::kOccupied;
+    case VoxelState::kUnknown:
+      break;
+  }
+  return Confusion::kUnknown;
+}
+
+// Every fourth voxel along each axis of a block.
+void CountGrid(const VoxelMap& map_W, BlockKey block_key, const Surroundings& around,
+               Confusion::Counts& truly_free) {
+  for (int index = 0; index < kBlockSize * kBlockSize * kBlockSize; ++index) {
+    const VoxelKey key = VoxelAt(block_key, index);
+    if ((key.x | key.y | key.z) % 4 != 0) continue;
+    if (around.Hold(map_W.grid().CenterOf(key))) continue;
+    ++truly_free[SaidOf(map_W.State(key))];
+  }
+}
+
 }  // namespace
 
 StaticFit FitOf(const VoxelMap& map_W, const World& world, const MetSurfaces& met) {
@@ -78,6 +101,7 @@ StaticFit FitOf(const VoxelMap& map_W, const World& world, const MetSurfaces& me
     Aabb box_W = grid.BoxOf(VoxelAt(block_key, 0));
     box_W.Extend(grid.BoxOf(VoxelAt(block_key, kBlockSize * kBlockSize * kBlockSize - 1)));
     const Surroundings around(parts, box_W.Padded(voxel_m));
+    CountGrid(map_W, block_key, around, fit.grid.truly_free);
     block.observed.ForEach([&](int index) {
       const VoxelKey key = VoxelAt(block_key, index);
       const Eigen::Vector3d center_W = grid.CenterOf(key);
@@ -97,6 +121,7 @@ StaticFit FitOf(const VoxelMap& map_W, const World& world, const MetSurfaces& me
   for (const auto& [key, p_W] : met.Of(kStaticLabel)) {
     ++fit.met;
     fit.met_found += AnyBeside(map_W, key, VoxelState::kOccupied);
+    ++fit.grid.truly_occupied[SaidOf(map_W.State(key))];
   }
   return fit;
 }

@@ -113,11 +113,6 @@ struct KnownPlaces {
 
 }  // namespace
 
-double Confusion::Share(const Counts& counts, Said said) {
-  return static_cast<double>(counts[said]) /
-         static_cast<double>(counts[kFree] + counts[kOccupied] + counts[kUnknown]);
-}
-
 WayConfusion::WayConfusion(Truth truth, std::vector<Duration> ahead)
     : truth_(std::move(truth)), ahead_(std::move(ahead)), confusions_(ahead_.size()) {}
 

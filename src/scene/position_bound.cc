@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/mended_pose.h"
 #include "scene/object_motion.h"
 
 namespace clearway {
@@ -102,11 +103,10 @@ PositionBound BoundAtRest(const PastMisses& misses) {
 
 // Of others the error grows with the square of the time, as far as they do what they want. What is
 // beyond that comes from the poses' noise, has lighter tails and grows evenly.
-PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual) {
+PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual, double of_95_noise) {
   constexpr double kOf95 = 2.0, kUsualHalf_m = 0.17, kUsualWhole_m = 0.5;
   constexpr double kWilful = 1.1;  // times what is usual
   constexpr double kGrows = 0.5;   // with the square at least so much
-  constexpr double kOf95Noise = 1.55;
   const double usual_half_m = share_of_usual * kUsualHalf_m;
   const double usual_whole_m = share_of_usual * kUsualWhole_m;
   const double half_m =
@@ -120,11 +120,11 @@ PositionBound BoundInMotion(const PastMisses& misses, double share_of_usual) {
       std::clamp((wilful_whole_m - wilful_half_m) / 0.75, kGrows * wilful_whole_m, wilful_whole_m);
   const double noise_half_m = std::sqrt(half_m * half_m - wilful_half_m * wilful_half_m);
   const double noise_whole_m = std::sqrt(whole_m * whole_m - wilful_whole_m * wilful_whole_m);
-  const double bound_whole_m = std::hypot(kOf95 * wilful_whole_m, kOf95Noise * noise_whole_m);
+  const double bound_whole_m = std::hypot(kOf95 * wilful_whole_m, of_95_noise * noise_whole_m);
   return BoundThrough(
-      std::min(std::hypot(kOf95 * wilful_half_m, kOf95Noise * noise_half_m), bound_whole_m),
+      std::min(std::hypot(kOf95 * wilful_half_m, of_95_noise * noise_half_m), bound_whole_m),
       bound_whole_m,
-      std::hypot(kOf95 * (wilful_whole_m + 8 * grown_m), kOf95Noise * 3 * noise_whole_m));
+      std::hypot(kOf95 * (wilful_whole_m + 8 * grown_m), of_95_noise * 3 * noise_whole_m));
 }
 
 }  // namespace
@@ -188,12 +188,15 @@ bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others) {
 // Root mean squares of misses times kOf95 were right for 95 in 100 objects of recorded drives
 // (KITTI, Argoverse 2), and of a simulated one with and without noise. So was what an object may do
 // of which one pose is known and nothing else.
-PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O) {
+PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
+                      bool of_two_mended) {
   constexpr double kUnknown_mps = 6;
+  constexpr double kOf95Noise = 1.55, kOf95MendedNoise = 1.8;
   if (velocity_O == Twist{}) {
     return has_motion ? BoundAtRest(misses) : PositionBound{0, kUnknown_mps, 0};
   }
-  return BoundInMotion(misses, has_motion ? ShareOfUsual(velocity_O.linear.norm()) : 1);
+  return BoundInMotion(misses, has_motion ? ShareOfUsual(velocity_O.linear.norm()) : 1,
+                       of_two_mended ? kOf95MendedNoise : kOf95Noise);
 }
 
 PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,
@@ -201,7 +204,8 @@ PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twis
   const auto by_itself = [&](std::span<const StampedPose> past) {
     return GoesOnByItself(past, solid, params);
   };
-  return BoundBy(MissesOf(track, since, solid, by_itself), track.size() > 1, velocity_O);
+  return BoundBy(MissesOf(track, since, solid, by_itself), track.size() > 1, velocity_O,
+                 params.motion == MotionModel::kLastMotion && MendsPoses(params));
 }
 
 PositionBound BoundAfter(const PositionBound& bound, double seconds) {

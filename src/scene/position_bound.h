@@ -74,8 +74,10 @@ PastMisses MissesOf(std::span<const StampedPose> track, Time since, const Solid&
 bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others);
 
 // The bound that follows from them, of an object of that velocity. `has_motion`: of one of which
-// more than a pose is known.
-PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O);
+// more than a pose is known. `of_two_mended`: by its last motion, between poses that were mended
+// (scene/mended_pose.h), of which now and then one is far off.
+PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
+                      bool of_two_mended);
 
 // The bound as seen from a prediction that long ahead, which is taken for a pose.
 PositionBound BoundAfter(const PositionBound& bound, double seconds);

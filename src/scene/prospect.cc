@@ -1,5 +1,6 @@
 #include "scene/prospect.h"
 
+#include "scene/mended_pose.h"
 #include "scene/object_motion.h"
 #include "scene/position_bound.h"
 
@@ -16,10 +17,12 @@ Prospect ProspectOf(std::span<const StampedPose> track, Time since, const Twist&
   if (has_motion && params.motion == MotionModel::kTrack && !(velocity_O == Twist{})) {
     const PastMisses misses_of_last = MissesOf(track, since, solid, LastMotionOf);
     if (IsClearlyBetter(misses_of_last, misses)) {
-      return {last_motion_O, BoundBy(misses_of_last, has_motion, last_motion_O)};
+      return {last_motion_O,
+              BoundBy(misses_of_last, has_motion, last_motion_O, MendsPoses(params))};
     }
   }
-  return {velocity_O, BoundBy(misses, has_motion, velocity_O)};
+  const bool of_two = params.motion == MotionModel::kLastMotion;
+  return {velocity_O, BoundBy(misses, has_motion, velocity_O, of_two && MendsPoses(params))};
 }
 
 }  // namespace clearway

@@ -114,6 +114,11 @@ TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
               json["ways"][2]["truly_occupied"]["occupied"]);
   }
   EXPECT_GT(json["solids"][1]["f_score"], 0.8);
+  EXPECT_LE(json["solids"][1]["whole_f_score"], json["solids"][1]["f_score"]);
+  EXPECT_LT(json["reconstruction"]["worst_accuracy_voxels"], 0.5);
+  EXPECT_EQ(json["reconstruction"]["completeness"], 1);
+  EXPECT_LT(json["prediction"][1]["median_turn_rad"], 0.01);
+  EXPECT_GT(json["static"]["grid"]["truly_free"]["free"], 1000);
   EXPECT_EQ(json["static"]["residual_voxels"], 0);
   EXPECT_EQ(json["static"]["free_precision"], 1);
   const Finished text = Clearway({"evaluate", "sim:small", "--frames", "3"});
@@ -189,6 +194,9 @@ TEST(Evaluate, OnlyBySeedsThatAreNumbers) {
   const Finished dut = Clearway({"evaluate", "sim:small", "--seed", "99999999999999999999"});
   EXPECT_EQ(dut.exit_code, 2);
   EXPECT_THAT(dut.err, HasSubstr("is too large"));
+  const Finished alone = Clearway({"evaluate", "sim:small", "--wrong-labels-seed", "2"});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_THAT(alone.err, HasSubstr("requires --wrong-labels"));
 }
 
 TEST(Evaluate, WithMasksThatAreTooLarge) {

@@ -49,6 +49,23 @@ Frame FrameOf(const std::vector<Eigen::Vector3f>& points_S, Time stamp) {
 
 const Time kFirst(std::chrono::seconds(1)), kSecond(std::chrono::seconds(2));
 
+TEST(ObjectFit, OfASceneIsOfAllVoxelsAndTellsTheWorst) {
+  ObjectFit large, small;
+  large.voxel_m = small.voxel_m = 0.1;
+  large.errors_m = {0.01, 0.02, 0.05};
+  small.errors_m = {0.03, 0.04};
+  large.met = large.covered = 30;
+  small.met = 10;
+  small.covered = 6;
+  const SceneFit dut = Together({{1, large}, {2, small}});
+  EXPECT_THAT(dut.together.errors_m, ElementsAre(0.01, 0.02, 0.03, 0.04, 0.05));
+  EXPECT_EQ(dut.together.Accuracy_m(), 0.03);
+  EXPECT_EQ(dut.together.Completeness(), 0.9);
+  EXPECT_NEAR(dut.worst_accuracy_voxels, 0.4, 1e-9);
+  EXPECT_EQ(dut.worst_completeness, 0.6);
+  EXPECT_TRUE(std::isnan(Together({}).together.Completeness()));
+}
+
 class ObjectFitterTest : public ::testing::Test {
  protected:
   void Add(const Frame& frame, const Pose& T_W_S, const SceneSnapshot& scene) {

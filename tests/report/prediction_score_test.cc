@@ -53,6 +53,21 @@ TEST(PredictionScore, IsHowFarTheBoxIsFromWhereItWasPredicted) {
   EXPECT_TRUE(std::isnan(of_object[2].Median()));
 }
 
+TEST(PredictionScore, TellsByHowMuchItIsTurned) {
+  PredictionScore dut(GoingAhead(Time(seconds(13))), {seconds(1), seconds(2)});
+  for (const double turn_radps : {0.0, -0.1, 0.2}) {
+    SceneSnapshot scene = SceneWith(1);
+    auto object = std::make_shared<MovingObject>(*scene.objects[0]);
+    object->velocity_O->angular = {0, 0, turn_radps};
+    scene.objects = {object};
+    dut.Add(scene);
+  }
+  const std::vector<PredictionErrors> of_object = dut.Errors().at(7);
+  const auto near = [](double turn_rad) { return DoubleNear(turn_rad, 1e-6); };
+  EXPECT_THAT(of_object[0].turns_rad, ElementsAre(near(0), near(0.1), near(0.2)));
+  EXPECT_NEAR(of_object[1].TurnQuantile_rad(0.5), 0.2, 1e-6);
+}
+
 TEST(PredictionScore, CountsOnlyWhatWasSeenAndHasATruth) {
   PredictionScore dut(GoingAhead(Time(seconds(13))), {seconds(1)});
   dut.Add(SceneWith(1, /*bridged=*/true));

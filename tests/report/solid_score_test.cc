@@ -54,6 +54,7 @@ TEST(SolidScore, OfTheRightPredictionIsOne) {
   EXPECT_EQ(dut.predicted, 20 * 10 * 10);
   EXPECT_EQ(dut.seen, 20 * 10 * 10);
   EXPECT_EQ(dut.FScore(), 1);
+  EXPECT_EQ(dut.WholeFScore(), 1);
 }
 
 TEST(SolidScore, AVoxelIsTolerated) {
@@ -125,6 +126,10 @@ TEST(SolidScore, WhatWasNotSeenDoesNotCount) {
   dut.Add(scene, met);
   EXPECT_GT(dut.overlaps().at(7)[0].seen, 0);
   EXPECT_EQ(dut.overlaps().at(7)[0].FScore(), 1);
+  // But it does in the whole solid, of which half and a layer were found.
+  EXPECT_EQ(dut.overlaps().at(7)[0].whole, 20 * 10 * 10);
+  EXPECT_NEAR(dut.overlaps().at(7)[0].WholeRecall(), 11.0 / 20, 1e-9);
+  EXPECT_NEAR(dut.overlaps().at(7)[0].WholeFScore(), 22.0 / 31, 1e-9);
 }
 
 // Two halves that a scene takes for one object are judged by both.

@@ -48,6 +48,29 @@ TEST(StaticFit, OfTheRightMapIsPerfect) {
   EXPECT_EQ(dut.FreeRecall(), 1);
 }
 
+TEST(StaticFit, TheGridTellsWhatTheMapSaysRightThere) {
+  VoxelMap map(0.1);
+  const auto Said = [&](Confusion::Said said) {
+    return Fit(map).grid.truly_free[static_cast<std::size_t>(said)];
+  };
+  map.Set({4, 0, 0}, -1000);  // of the eight of its block that count
+  EXPECT_EQ(Said(Confusion::kFree), 1);
+  EXPECT_EQ(Said(Confusion::kOccupied), 0);
+  EXPECT_EQ(Said(Confusion::kUnknown), 7);
+  map.Set({0, 4, 4}, 1000);
+  map.Set({1, 4, 4}, 1000);  // not of the grid
+  EXPECT_EQ(Said(Confusion::kOccupied), 1);
+  EXPECT_EQ(Said(Confusion::kUnknown), 6);
+}
+
+TEST(StaticFit, TheGridCountsSurfacesThatWereMet) {
+  const StaticFit right = Fit(TestScene().static_map_W);
+  EXPECT_EQ(right.grid.truly_occupied, (Confusion::Counts{0, right.met, 0}));
+  EXPECT_EQ(right.grid.truly_free[Confusion::kOccupied], 0);
+  const StaticFit nothing = Fit(VoxelMap(0.1));
+  EXPECT_EQ(nothing.grid.truly_occupied, (Confusion::Counts{0, 0, right.met}));
+}
+
 TEST(StaticFit, OneVoxelOffIsRightTwoAreNot) {
   for (const int off : {1, 2}) {
     VoxelMap map = TestScene().static_map_W;

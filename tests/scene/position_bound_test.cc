@@ -126,6 +126,20 @@ TEST(PositionBound, HoldsForAboutNinetyFiveInAHundred) {
   }
 }
 
+// Of poses that were mended a single one may be far off, and the last motion is between two.
+TEST(PositionBound, AllowsForMendedPosesWhereTheLastMotionGoesOn) {
+  Random random(5);
+  std::vector<StampedPose> track = Track(40, Steady);
+  for (StampedPose& pose : track) pose.T_W_O.translation.y() += 0.1 * random.Normal();
+  SceneParams mends;
+  mends.object_pose_error_m = 0.5;
+  EXPECT_GT(BoundWith(track, mends).At(1), 1.1 * BoundWith(track, SceneParams{}).At(1));
+  EXPECT_LT(BoundWith(track, mends).At(1), 1.2 * BoundWith(track, SceneParams{}).At(1));
+  SceneParams by_track = ByTrack();
+  by_track.object_pose_error_m = 0.5;
+  EXPECT_EQ(BoundWith(track, by_track).At(1), BoundWith(track, ByTrack()).At(1));
+}
+
 // A steady drive, each of whose poses is off.
 std::vector<StampedPose> NoisyTrack(int poses, double noise_m, Random& random) {
   return Track(poses, [&](double t) {

@@ -31,7 +31,19 @@ struct ObjectFit {
   double Quantile_m(double share) const;
   double Accuracy_m() const { return Quantile_m(0.5); }
   double Completeness() const;  // covered of met; NaN without any
+
+  // Takes over another object's voxels and pieces; the growth stays.
+  ObjectFit& operator+=(const ObjectFit& other);
 };
+
+// Of all objects of a scene.
+struct SceneFit {
+  ObjectFit together;
+  double worst_accuracy_voxels = 0;  // of the object whose median error is the largest
+  double worst_completeness = 1;     // of the object that is covered worst
+};
+
+SceneFit Together(const std::map<ObjectId, ObjectFit>& fits);
 
 // Collects the newest map of each object. Where its frame O lies in the true body, as scans show
 // that, is taken to be the mean over the frames since the map was begun: what the source gets wrong

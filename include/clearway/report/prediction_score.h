@@ -17,11 +17,14 @@ struct PredictionErrors {
   // The bounds that were stated of them (PositionBound), ascending too, and how many kept within.
   std::vector<double> bounds_m;
   std::size_t within = 0;
+  // By how much their axes are turned from the true ones, in radians, ascending.
+  std::vector<double> turns_rad;
 
   // The error that this share (0 to 1) of the predictions does not exceed; NaN without any.
   double Quantile(double share) const;
   double Median() const { return Quantile(0.5); }
   double MedianBound() const;
+  double TurnQuantile_rad(double share) const;
   // Share of those within their bounds; NaN without any.
   double Within() const {
     return static_cast<double>(within) / static_cast<double>(errors_m.size());
@@ -32,8 +35,8 @@ struct PredictionErrors {
 
 // Collects prediction errors over the versions of a scene. An error is the distance between the
 // middle of an object's true box at t_k + ahead and that of its true box at t_k, moved as the scene
-// moves the object meanwhile: what the map gets wrong about the object's shape does not count. One
-// thread.
+// moves the object meanwhile: what the map gets wrong about the object's shape does not count. A
+// turn is the angle between these boxes. One thread.
 class PredictionScore {
  public:
   PredictionScore(Truth truth, std::vector<Duration> ahead);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "clearway/map/voxel_map.h"
+#include "clearway/report/confusion.h"
 #include "clearway/report/met_surfaces.h"
 #include "clearway/sim/world.h"
 
@@ -20,6 +21,10 @@ struct StaticFit {
   std::int64_t met = 0, met_found = 0;
   // With their centre outside of every static body; and of these with a free voxel likewise.
   std::int64_t truly_free = 0, free_found = 0;
+  // What the map says, not to within a voxel but right there, of a grid over the blocks that it
+  // has, every fourth voxel along each axis: of what is truly free as above, but unobserved voxels
+  // too; and, as truly occupied, of all voxels where rays met a surface.
+  Confusion grid;
 
   // Occupied voxels where nothing static is: trails of what moves, ghosts.
   std::int64_t Residual() const { return occupied - occupied_right; }

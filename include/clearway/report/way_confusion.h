@@ -1,33 +1,22 @@
 // What a scene says of the places that objects pass, against who is really there.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <vector>
 
 #include "absl/container/inlined_vector.h"
+#include "clearway/report/confusion.h"
 #include "clearway/report/truth.h"
 #include "clearway/scene/scene_snapshot.h"
 
 namespace clearway {
 
-// Counts of voxels by what is really there and by what is said of them.
-struct Confusion {
-  enum Said { kFree, kOccupied, kUnknown };  // unknown: whatever is neither
-  using Counts = std::array<std::int64_t, 3>;
-  Counts truly_free{};      // nothing is near
-  Counts truly_occupied{};  // well inside an object, be it one that the scene has not seen yet
-
-  // 0 to 1; NaN of nothing.
-  static double Share(const Counts& counts, Said said);
-};
-
 // Asks versions of a scene about a grid over the ways of all objects of a sequence: every fourth
 // voxel, along each axis, whose centre one of their true boxes ever holds, looked at ten times a
 // second. There it is known what is free:
 // where an object has passed or will pass, nothing else stands. At a time, a place is truly
-// occupied in the middle six tenths of a box, as no object fills its box; truly free farther than
+// occupied in the middle six tenths of a box, as no object fills its box, be it one that the scene
+// has not seen yet; truly free farther than
 // 0.3 m from every box, as boxes are not exact, if there is a box of every object that ever holds
 // it. Else it is not counted, nor is what lies within 0.3 m of a box's bottom, the ground, or out
 // of the sensor's range, or in boxes of more than 2^24 voxels. One thread.
