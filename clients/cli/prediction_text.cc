@@ -42,8 +42,7 @@ void PrintDistances(std::ostream& out, const TrueSource& source, const Evaluatio
 void PrintTurns(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   out << "\nBy how much it is turned from how it is predicted, in degrees: median, and what 95 % "
-         "do "
-         "not exceed.\n\n";
+         "do not exceed.\n\n";
   Table table(HeaderBy("95 %"));
   for (const auto& [id, of_object] : found.predictions) {
     std::vector<std::string> row = {absl::StrCat(id), NameOf(source, id)};

@@ -75,7 +75,7 @@ bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others);
 
 // The bound that follows from them, of an object of that velocity. `has_motion`: of one of which
 // more than a pose is known. `of_two_mended`: by its last motion, between poses that were mended
-// (scene/mended_pose.h), of which now and then one is far off.
+// (scene/mended_pose.h): its misses were beyond the bound too often, for reasons not looked into.
 PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
                       bool of_two_mended);
 
