@@ -83,6 +83,7 @@ SceneParams RobustParamsFor(const Input& input) {
   SceneParams params = ParamsFor(input, false);
   params.rays.grazing_m = 4;
   params.motion = MotionModel::kTrack;
+  params.solid = SolidMode::kCompletedHull;
   params.rest_distance_m = 0.6;
   params.object_pose_error_m = 0.1;
   params.object_pose_error_rad = 0.02;

@@ -31,7 +31,7 @@ AT_LEAST = {
     "closed_loop_goal_fraction": 0.98,
     "drive_start_frames": 20,
     "prediction_solids_1s_f": 0.9,
-    "prediction_whole_solids_1s_f": 0.9,
+    "prediction_whole_solids_1s_f_completed": 0.9,
     "reconstruction_completeness": 0.98,
     "reidentified_fraction": 0.95,
     "reconstruction_registered_accuracy_x": 2,

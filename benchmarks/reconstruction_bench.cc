@@ -56,6 +56,7 @@ struct Setup {
   bool mended = false;      // the sensor's poses, by the static map
   bool filter_labels = false;
   double wrong_labels = 0;  // share of all
+  SolidMode solid = SolidMode::kConvexHull;
 };
 
 SceneParams ParamsOf(const Setup& setup, const Simulation& simulation) {
@@ -63,6 +64,7 @@ SceneParams ParamsOf(const Setup& setup, const Simulation& simulation) {
   params.resolution_m = params.object_resolution_m = simulation.spec().resolution_m;
   params.rays = {.max_range_m = 50, .grazing_m = setup.grazing_m};
   params.filter_labels = setup.filter_labels;
+  params.solid = setup.solid;
   if (setup.registered) {
     params.object_pose_error_m = setup.options.noise.object.mean_translation_m;
     params.object_pose_error_rad = setup.options.noise.object.mean_rotation_rad;
@@ -95,7 +97,7 @@ Fits Reconstruct(const Setup& setup, const std::string& suffix, benchmark::State
 }
 
 // Without what makes up for it; with registered views; with filtered labels too, right ones and
-// some of them wrong; and with the sensor's poses mended instead.
+// some of them wrong, and with completed hulls; and with the sensor's poses mended instead.
 void WithNoise(benchmark::State& state, const ScenarioOptions& noisy) {
   for (auto _ : state) {
     const Fits as_told = Reconstruct({.options = noisy}, "_table1", state);
@@ -110,6 +112,9 @@ void WithNoise(benchmark::State& state, const ScenarioOptions& noisy) {
     compare(setup, "_registered");
     setup.filter_labels = true;
     compare(setup, "_refined");
+    setup.solid = SolidMode::kCompletedHull;
+    compare(setup, "_refined_completed");
+    setup.solid = SolidMode::kConvexHull;
     setup.wrong_labels = 0.05;
     compare(setup, "_refined_mislabelled");
     compare({.options = noisy, .registered = true, .mended = true}, "_mended");
@@ -171,6 +176,10 @@ void Register(const Effort& effort) {
   noisy.noise = SlamNoise::TableOne();
   Add("reconstruction", once, [=](auto& state) {
     for (auto _ : state) Reconstruct({.options = exact}, "", state);
+  });
+  Add("reconstruction_completed", once, [=](auto& state) {
+    const Setup setup{.options = exact, .solid = SolidMode::kCompletedHull};
+    for (auto _ : state) Reconstruct(setup, "_completed", state);
   });
   Add("reconstruction_octomap", once, [=](auto& state) {
     for (auto _ : state) Reconstruct({.options = exact, .grazing_m = 0}, "_octomap", state);

@@ -1,4 +1,5 @@
 // The table of all keys.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -46,8 +47,9 @@ absl::Status Parse(const std::string& text, Duration& value) {
   return absl::OkStatus();
 }
 absl::Status Parse(const std::string& text, SolidMode& value) {
-  if (text != "convex_hull" && text != "voxels") return Bad(text, "convex_hull or voxels");
-  value = text == "voxels" ? SolidMode::kVoxels : SolidMode::kConvexHull;
+  const auto name = std::ranges::find(kSolidModeNames, text);
+  if (name == kSolidModeNames.end()) return Bad(text, "convex_hull, completed_hull or voxels");
+  value = static_cast<SolidMode>(name - kSolidModeNames.begin());
   return absl::OkStatus();
 }
 absl::Status Parse(const std::string& text, MotionModel& value) {
@@ -89,7 +91,7 @@ std::string Print(int value) { return std::to_string(value); }
 std::string Print(std::uint64_t value) { return std::to_string(value); }
 std::string Print(Duration value) { return Print(ToSeconds(value)); }
 std::string Print(SolidMode value) {
-  return Print(std::string(value == SolidMode::kVoxels ? "voxels" : "convex_hull"));
+  return Print(std::string(kSolidModeNames[static_cast<std::size_t>(value)]));
 }
 std::string Print(MotionModel value) {
   return Print(std::string(value == MotionModel::kTrack ? "track" : "last"));
@@ -156,7 +158,8 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.discretize", scene.rays.discretize, "one ray per end voxel"),
       CLEARWAY_SETTING("scene.grazing_m", scene.rays.grazing_m,
                        "metres before its end in which a ray spares what it grazes"),
-      CLEARWAY_SETTING("scene.solid", scene.solid, "what an object fills: convex_hull or voxels"),
+      CLEARWAY_SETTING("scene.solid", scene.solid,
+                       "what an object fills: convex_hull, completed_hull or voxels"),
       CLEARWAY_SETTING("scene.clear_objects_by_rays", scene.clear_objects_by_rays,
                        "whether rays clear voxels of objects"),
       CLEARWAY_SETTING("scene.motion", scene.motion,

@@ -31,7 +31,7 @@ constexpr char kExamples[] =
 struct Flags {
   std::string spec;
   SourceFlags source;
-  std::string motion = "last";
+  std::string motion = "last", solid{kSolidModeNames[0]};
   double rest_distance_m = 0;
   std::optional<double> object_voxel_m;
   double max_range_m = 50;
@@ -52,6 +52,8 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rays.max_range_m = flags.max_range_m;
   params.rays.grazing_m = flags.grazing_m;
   params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
+  params.solid = static_cast<SolidMode>(std::ranges::find(kSolidModeNames, flags.solid) -
+                                        kSolidModeNames.begin());
   params.rest_distance_m = flags.rest_distance_m;
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
@@ -168,6 +170,10 @@ void AddEvaluate(Cli& cli) {
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))
+      ->capture_default_str();
+  command->add_option("--solid", flags->solid, "As of clearway-server --scene-solid")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(kSolidModeNames.begin(), kSolidModeNames.end())))
       ->capture_default_str();
   command
       ->add_option("--rest-distance", flags->rest_distance_m,

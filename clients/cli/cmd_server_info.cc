@@ -1,6 +1,7 @@
 // clearway server-info: a server's version, parameters and limits.
 #include <memory>
 
+#include "absl/strings/ascii.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/report/table.h"
 #include "cli/commands.h"
@@ -59,7 +60,8 @@ Json ParamsJson(const SceneParams& p) {
           {"max_range_m", p.rays.max_range_m},
           {"discretize", p.rays.discretize},
           {"grazing_m", p.rays.grazing_m},
-          {"solid", p.solid == SolidMode::kConvexHull ? "CONVEX_HULL" : "VOXELS"},
+          {"solid",
+           absl::AsciiStrToUpper(std::string(kSolidModeNames[static_cast<std::size_t>(p.solid)]))},
           {"clear_objects_by_rays", p.clear_objects_by_rays},
           {"motion", p.motion == MotionModel::kTrack ? "TRACK" : "LAST_MOTION"},
           {"horizon_s", ToSeconds(p.horizon)},

@@ -1,67 +1,14 @@
 #include "clearway/scene/moving_object.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <utility>
 
 #include "clearway/geometry/hull.h"
+#include "scene/completion.h"
+#include "scene/voxel_hull.h"
 
 namespace clearway {
 namespace {
-
-// A row of voxels along x, from the first to the last that is occupied.
-struct Row {
-  std::int32_t y, z, first_x, last_x;
-};
-
-// By y and z, each once.
-std::vector<Row> OccupiedRows(const VoxelMap& map) {
-  std::vector<Row> rows;
-  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-    const auto [x, y, z] = VoxelAt(key, 0);
-    for (int line = 0; line < kBlockSize * kBlockSize; ++line) {
-      const int in_y = line % kBlockSize, in_z = line / kBlockSize;
-      const auto bits = static_cast<std::uint8_t>(block.occupied.words[in_z] >> kBlockSize * in_y);
-      if (bits == 0) continue;
-      rows.push_back({y + in_y, z + in_z, x + std::countr_zero(bits),
-                      x + kBlockSize - 1 - std::countl_zero(bits)});
-    }
-  });
-  std::ranges::sort(rows, {}, [](const Row& row) { return std::pair(row.y, row.z); });
-  std::size_t size = 0;
-  for (const Row& row : rows) {
-    if (size == 0 || rows[size - 1].y != row.y || rows[size - 1].z != row.z) {
-      rows[size++] = row;
-      continue;
-    }
-    Row& same = rows[size - 1];
-    same.first_x = std::min(same.first_x, row.first_x);
-    same.last_x = std::max(same.last_x, row.last_x);
-  }
-  rows.resize(size);
-  return rows;
-}
-
-// The occupied voxels' corners that a convex hull can have: the ends of each row along x. Integer
-// coordinates, so that the hull is computed on exact numbers.
-std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
-  std::vector<std::array<std::int32_t, 3>> corners;
-  for (const Row& row : OccupiedRows(map)) {
-    for (const std::int32_t z : {row.z, row.z + 1}) {
-      for (const std::int32_t y : {row.y, row.y + 1}) {
-        corners.push_back({row.first_x, y, z});
-        corners.push_back({row.last_x + 1, y, z});
-      }
-    }
-  }
-  std::ranges::sort(corners);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(corners.size());
-  for (const auto& [x, y, z] : corners) points.emplace_back(x, y, z);
-  return points;
-}
 
 // `shape`: none if it is the hull itself.
 std::shared_ptr<const Solid> SolidWith(Mesh hull, const std::optional<Shape>& shape) {
@@ -100,8 +47,11 @@ std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Tim
   return {first, future.end()};
 }
 
-std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O) {
-  Mesh hull = ConvexHullOf(HullCandidates(map_O));
+std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O,
+                                     const std::optional<Completion>& completion) {
+  std::vector<Eigen::Vector3d> points = HullCandidates(map_O);
+  if (completion && !points.empty()) AddUnseen(*completion, points);
+  Mesh hull = ConvexHullOf(points);
   for (Eigen::Vector3d& vertex : hull.vertices) vertex *= map_O.grid().resolution_m();
   return SolidWith(std::move(hull), std::nullopt);
 }
@@ -111,7 +61,7 @@ std::shared_ptr<const Solid> SolidOf(const Shape& shape) {
 }
 
 MovingObject WithMap(MovingObject object, VoxelMap map_O) {
-  object.solid = SolidOf(map_O);
+  object.solid = SolidOf(map_O, object.completion);
   object.observed_box_O = map_O.ObservedBox();
   object.map_O = std::move(map_O);
   return object;

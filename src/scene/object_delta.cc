@@ -1,5 +1,6 @@
 #include "scene/object_delta.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -42,6 +43,21 @@ absl::Status CheckBound(const std::string& field, const PositionBound& bound) {
   return absl::OkStatus();
 }
 
+absl::Status CheckCompletion(const std::string& field, const ObjectDelta& delta) {
+  if (!delta.completion) return absl::OkStatus();
+  const auto& [yaw_rad, unseen_end, length_seen] = *delta.completion;
+  if (delta.given) return Malformed(absl::StrCat(field, ".completion: is of a given object"));
+  if (!(std::abs(yaw_rad) <= 4)) {
+    return Malformed(
+        absl::StrCat(field, ".completion.yaw_rad: ", yaw_rad, " does not lie between -4 and 4"));
+  }
+  if (unseen_end < -1 || unseen_end > 1) {
+    return Malformed(
+        absl::StrCat(field, ".completion.unseen_end: is ", unseen_end, ", not -1, 0 or 1"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckPoses(const std::string& field, const ObjectDelta& delta) {
   if (delta.history.empty()) return Malformed(absl::StrCat(field, ".history: is empty"));
   if (auto status = CheckPoses(field + ".history", delta.history); !status.ok()) return status;
@@ -58,7 +74,9 @@ absl::Status ApplyVoxels(const std::string& field, const MovingObject* base,
   if (delta.given_shape != nullptr) {
     return Malformed(absl::StrCat(field, ".given_shape: is of an object that is not given"));
   }
-  if (base != nullptr && delta.map_O.empty()) return absl::OkStatus();
+  if (base != nullptr && delta.map_O.empty() && delta.completion == base->completion) {
+    return absl::OkStatus();
+  }
   VoxelMap map_O =
       base != nullptr ? base->map_O : VoxelMap(params.object_resolution_m, params.Model());
   if (auto status = ApplyMap(absl::StrCat(field, ".map"), delta.map_O, map_O); !status.ok()) {
@@ -97,6 +115,7 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   delta.older_ids_told = to.older_ids_told;
   delta.part_of = to.part_of;
   delta.map_O = DiffMaps(from == nullptr ? empty : from->map_O, to.map_O, detail);
+  delta.completion = to.completion;
   delta.history = to.history;
   delta.keeps_future = from != nullptr && KeepsFuture(*from, to);
   if (!delta.keeps_future) delta.future = to.future;
@@ -128,6 +147,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   }
   if (auto status = CheckPoses(field, delta); !status.ok()) return status;
   if (auto status = CheckBound(field, delta.bound); !status.ok()) return status;
+  if (auto status = CheckCompletion(field, delta); !status.ok()) return status;
   if (base != nullptr && base->given() != delta.given) base = nullptr;
   if (base == nullptr && delta.keeps_future) {
     return Malformed(absl::StrCat(field, ".keeps_future: there is none"));
@@ -138,6 +158,7 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.also = delta.also;
   object.older_ids_told = delta.older_ids_told;
   object.part_of = delta.part_of;
+  object.completion = delta.completion;
   object.history = delta.history;
   object.future = delta.keeps_future ? FutureAfter(base->future, object.t_k()) : delta.future;
   object.future_velocity_O = delta.future_velocity_O;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clearway/map/ray_caster.h"
+#include "scene/completion.h"
 #include "scene/mended_pose.h"
 #include "scene/position_bound.h"
 #include "scene/prospect.h"
@@ -185,6 +186,11 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
     if (map_O.grid().Addressable(p_O)) update.MarkHit(map_O.grid().KeyOf(p_O));
   }
   map_O.Update(update, pool);
+  if (params.solid == SolidMode::kCompletedHull) {
+    const bool one_origin = cloud.origins_W.size() == 1;
+    const Eigen::Vector3f& sensor_W = cloud.origins_W[one_origin ? 0 : points.front()];
+    object.completion = CompletionOf(object, sensor_W.cast<double>());
+  }
   object = WithMap(std::move(object), std::move(map_O));
   object.last_seen = stamp;
   ++object.frames_seen;

@@ -60,6 +60,11 @@ class ContentHasher {
       XXH3_128bits_update(state_, block.log_odds.data(), sizeof block.log_odds);
     });
   }
+  void Add(const Completion& completion) {
+    Add(completion.yaw_rad);
+    Add(std::int64_t{completion.unseen_end});
+    Add(std::int64_t{completion.length_seen});
+  }
   void Add(const DynamicSpace& space) {
     Add(static_cast<std::int64_t>(space.voxels().size()));
     for (const DynamicVoxel& voxel : space.voxels()) {
@@ -120,6 +125,7 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(object.older_ids_told);
   Add(std::int64_t{object.part_of});
   Add(object.map_O);
+  Add(object.completion);
   Add(object.history);
   Add(object.velocity_O);
   for (const double value : {object.bound.at_m, object.bound.speed_mps, object.bound.accel_mps2}) {
@@ -167,8 +173,9 @@ bool SameShape(const MovingObject& a, const MovingObject& b) {
 
 bool SameObject(const MovingObject& a, const MovingObject& b) {
   return a.id == b.id && a.also == b.also && a.older_ids_told == b.older_ids_told &&
-         a.part_of == b.part_of && a.map_O == b.map_O && a.history == b.history &&
-         a.future == b.future && a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
+         a.part_of == b.part_of && a.map_O == b.map_O && a.completion == b.completion &&
+         a.history == b.history && a.future == b.future &&
+         a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
          a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
          a.bound == b.bound && a.tracked_since == b.tracked_since;

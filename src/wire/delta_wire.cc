@@ -75,6 +75,11 @@ class DeltaWriter {
     proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
     proto->set_older_ids_told_ns(ToNanoseconds(object.older_ids_told));
     proto->set_part_of_id(object.part_of);
+    if (object.completion) {
+      proto->mutable_completion()->set_yaw_rad(object.completion->yaw_rad);
+      proto->mutable_completion()->set_unseen_end(object.completion->unseen_end);
+      proto->mutable_completion()->set_length_seen(object.completion->length_seen);
+    }
     for (const StampedPose& entry : object.history) {
       proto->add_history_ns(ToNanoseconds(entry.stamp));
       Append(entry.T_W_O, proto->mutable_history_world_from_object());
@@ -113,6 +118,10 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
   object.older_ids_told = read.Stamp("older_ids_told_ns", true, proto.older_ids_told_ns());
   object.part_of = proto.part_of_id();
+  if (proto.has_completion()) {
+    const v1::Completion& completion = proto.completion();
+    object.completion = {completion.yaw_rad(), completion.unseen_end(), completion.length_seen()};
+  }
   const std::vector<Pose> poses = read.Poses(
       "history_world_from_object", proto.history_world_from_object(), proto.history_ns_size());
   for (int i = 0; i < proto.history_ns_size() && read.ok(); ++i) {

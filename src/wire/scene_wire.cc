@@ -20,6 +20,34 @@ SceneQuery ReadQuery(const v1::SceneSelector& proto) {
   return {proto.min_version(), proto.lease_id()};
 }
 
+namespace {
+
+v1::SolidMode ToProto(SolidMode mode) {
+  switch (mode) {
+    case SolidMode::kConvexHull:
+      return v1::SOLID_MODE_CONVEX_HULL;
+    case SolidMode::kVoxels:
+      return v1::SOLID_MODE_VOXELS;
+    case SolidMode::kCompletedHull:
+      return v1::SOLID_MODE_COMPLETED_HULL;
+  }
+  return v1::SOLID_MODE_UNSPECIFIED;
+}
+
+SolidMode ReadSolidMode(int proto, FieldReader& read) {
+  switch (proto) {
+    case v1::SOLID_MODE_VOXELS:
+      return SolidMode::kVoxels;
+    case v1::SOLID_MODE_COMPLETED_HULL:
+      return SolidMode::kCompletedHull;
+    default:
+      read.Require(proto == v1::SOLID_MODE_CONVEX_HULL, "solid", "is not a known mode");
+      return SolidMode::kConvexHull;
+  }
+}
+
+}  // namespace
+
 v1::SpaceStatus ToProto(SpaceStatus status) {
   switch (status) {
     case SpaceStatus::kFree:
@@ -66,8 +94,7 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_max_range_m(params.rays.max_range_m);
   proto->set_discretize(params.rays.discretize);
   proto->set_grazing_m(params.rays.grazing_m);
-  proto->set_solid(params.solid == SolidMode::kVoxels ? v1::SOLID_MODE_VOXELS
-                                                      : v1::SOLID_MODE_CONVEX_HULL);
+  proto->set_solid(ToProto(params.solid));
   proto->set_clear_objects_by_rays(params.clear_objects_by_rays);
   proto->set_motion(params.motion == MotionModel::kTrack ? v1::MOTION_MODEL_TRACK
                                                          : v1::MOTION_MODEL_LAST_MOTION);
@@ -98,11 +125,7 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.occupancy = {proto.probability_hit(), proto.probability_miss(), proto.clamp_min(),
                       proto.clamp_max(), proto.occupied_threshold()};
   params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m()};
-  read.Require(
-      proto.solid() == v1::SOLID_MODE_CONVEX_HULL || proto.solid() == v1::SOLID_MODE_VOXELS,
-      "solid", "is not a known mode");
-  params.solid =
-      proto.solid() == v1::SOLID_MODE_VOXELS ? SolidMode::kVoxels : SolidMode::kConvexHull;
+  params.solid = ReadSolidMode(proto.solid(), read);
   params.clear_objects_by_rays = proto.clear_objects_by_rays();
   read.Require(v1::MotionModel_IsValid(proto.motion()), "motion", "is not a known model");
   params.motion =

@@ -20,6 +20,7 @@ std::vector<ScenePtr> RandomVersions(unsigned seed, int count) {
   ThreadPool pool(1);
   SceneParams params;
   params.clear_objects_by_rays = seed % 2 == 0;
+  params.solid = seed == 3 ? SolidMode::kCompletedHull : SolidMode::kConvexHull;
   params.keep_distance_m = seed == 3 ? 3 : 0;  // blocks are removed, too
   SceneBuilder builder(params, {}, pool);
   RandomFrames frames(seed);
@@ -224,6 +225,40 @@ TEST_F(SceneDeltaRefusalTest, BoundsOutOfRange) {
   }
 }
 
+TEST_F(SceneDeltaRefusalTest, CompletionsOutOfRange) {
+  delta_.objects[0].completion = Completion{3.1, -1, false};
+  EXPECT_EQ(Code(), absl::StatusCode::kOk);
+  for (const Completion& bad :
+       {Completion{4.1, 0, false}, {NAN, 0, false}, {0, 2, false}, {0, -2, true}}) {
+    delta_.objects[0].completion = bad;
+    EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument) << bad.yaw_rad << bad.unseen_end;
+  }
+  delta_ = Diff(nullptr, *versions_.back());
+  delta_.objects[0].map_O.clear();
+  delta_.objects[0].given = true;
+  delta_.objects[0].given_shape = std::make_shared<const Shape>(Sphere{1});
+  delta_.objects[0].completion = Completion();
+  EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
+}
+
+// The law with nothing but the completion changed.
+TEST(SceneDelta, HoldsACompletionThatChangedAlone) {
+  const auto versions = RandomVersions(3, 8);
+  SceneSnapshot turned = *versions.back();
+  ASSERT_FALSE(turned.objects.empty());
+  MovingObject object = *turned.objects[0];
+  object.completion = Completion{0.4, 1, false};
+  object = WithMap(object, object.map_O);
+  turned.objects[0] = std::make_shared<const MovingObject>(object);
+  const SceneDelta dut = Diff(versions.back().get(), turned);
+  ASSERT_EQ(dut.objects.size(), 1u);
+  EXPECT_TRUE(dut.objects[0].map_O.empty());
+  const auto applied = Apply(versions.back().get(), dut);
+  ASSERT_TRUE(applied.ok()) << applied.status();
+  ExpectEqual(*applied, turned);
+  EXPECT_NE(applied->Hash(), versions.back()->Hash());
+}
+
 TEST_F(SceneDeltaRefusalTest, FutureThatThereIsNone) {
   delta_.objects[0].keeps_future = true;
   EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
@@ -231,6 +266,7 @@ TEST_F(SceneDeltaRefusalTest, FutureThatThereIsNone) {
 
 TEST_F(SceneDeltaRefusalTest, GivenWithoutAShapeOrWithABadOne) {
   delta_.objects[0].map_O.clear();
+  delta_.objects[0].completion.reset();
   delta_.objects[0].given = true;
   EXPECT_EQ(Code(), absl::StatusCode::kInvalidArgument);
   for (const double radius_m : {0.0, 1e9, std::nan("")}) {

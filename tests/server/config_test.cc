@@ -50,9 +50,9 @@ TEST(ServerConfig, TheFileCanComeFromTheEnvironment) {
 TEST(ServerConfig, PrintedAsTomlItReadsBackTheSame) {
   ServerConfig config =
       Read({"--listen", "unix:/tmp/a b\"c", "--scene-resolution-m", "0.1234567",
-            "--limits-max-robots", "7", "--scene-solid", "voxels", "--scene-motion", "track",
-            "--scene-discretize", "true", "--scene-self-filter-m", "-1 -1 -1 1 1 1 2 2 2 3 3 3",
-            "--scene-bounds-m", "-9,-9,-9,9,9,9"});
+            "--limits-max-robots", "7", "--scene-solid", "completed_hull", "--scene-motion",
+            "track", "--scene-discretize", "true", "--scene-self-filter-m",
+            "-1 -1 -1 1 1 1 2 2 2 3 3 3", "--scene-bounds-m", "-9,-9,-9,9,9,9"});
   EXPECT_EQ(config.scene.self_filter_S.size(), 2u);
   const TemporaryFolder folder;
   const std::string file = folder.Write("c.toml", ToToml(config)).string();

@@ -42,6 +42,7 @@ std::vector<ScenePtr> Scenes(int count, unsigned seed) {
   ThreadPool pool(1);
   SceneParams params;
   params.resolution_m = params.object_resolution_m = 0.2;
+  params.solid = SolidMode::kCompletedHull;
   SceneBuilder builder(params, FrameLimits{}, pool);
   std::vector<ScenePtr> scenes = {builder.Publish()};
   RandomFrames frames(seed);

@@ -30,8 +30,20 @@ Twist VelocityBetween(const StampedPose& before, const StampedPose& after);
 // The poses after `t_k`.
 std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Time t_k);
 
-// The part of space that an object fills, in O: the convex hull of its occupied voxels, or the
-// shape of a given object. Immutable.
+// Along which axis an object is completed by what no ray has met of it (SolidMode::kCompletedHull):
+// by the mirror image of what was seen, at the upright plane that halves its width; and, as long as
+// it was seen from one end alone, by what a vehicle must be long.
+struct Completion {
+  double yaw_rad = 0;  // of its length in O, about O's z: the way it goes
+  // What went fast, and was only seen from behind, goes on ahead of what was seen (1); only seen
+  // from before, behind it (-1). 0: not known to be longer than seen.
+  int unseen_end = 0;
+  bool length_seen = false;  // its flank was, and is what its length is
+  bool operator==(const Completion&) const = default;
+};
+
+// The part of space that an object fills, in O: the convex hull of its occupied voxels, completed
+// or not, or the shape of a given object. Immutable.
 struct Solid {
   Shape shape;                       // convex
   std::shared_ptr<const Mesh> hull;  // around the shape (see HullAround); never null, empty if no
@@ -39,7 +51,8 @@ struct Solid {
   Aabb box_O;                        // around the occupied voxels or the hull
   double radius_m = 0;               // of the smallest ball about O's origin that holds the hull
 };
-std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O);
+std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O,
+                                     const std::optional<Completion>& completion = {});
 std::shared_ptr<const Solid> SolidOf(const Shape& shape);
 
 // How far from where it is predicted an object's centre (that of its solid's box) is at most, in 95
@@ -87,7 +100,9 @@ struct MovingObject {
   // Of a given object, which was told and not seen (see given_object.h): in O, never a
   // TriangleMesh. Null for a reconstructed one.
   std::shared_ptr<const Shape> given_shape;
-  // Both follow from map_O (see WithMap) or given_shape.
+  // None but with SolidMode::kCompletedHull, and then as soon as it is known which way it goes.
+  std::optional<Completion> completion;
+  // Both follow from map_O and completion (see WithMap) or given_shape.
   std::shared_ptr<const Solid> solid;
   Aabb observed_box_O;
 
@@ -124,7 +139,7 @@ struct MovingObject {
   }
   bool given() const { return given_shape != nullptr; }
   // Whether its solid's shape counts as occupied: its voxels alone may (SolidMode), if it has any.
-  bool FillsSolid(SolidMode mode) const { return given() || mode == SolidMode::kConvexHull; }
+  bool FillsSolid(SolidMode mode) const { return given() || mode != SolidMode::kVoxels; }
 
   // No motion and no future known, or none but rounding.
   bool AtRest() const;

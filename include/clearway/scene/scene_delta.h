@@ -30,6 +30,7 @@ struct ObjectDelta {
   Time older_ids_told;
   ObjectId part_of = kStaticLabel;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
+  std::optional<Completion> completion;
   std::vector<StampedPose> history;
   std::vector<StampedPose> future;
   // Instead of `future`: that of `from` without the poses up to t_k. A future is long, and frames

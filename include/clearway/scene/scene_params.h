@@ -1,6 +1,8 @@
 // Everything that decides what a scene makes of its frames.
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -12,7 +14,14 @@
 namespace clearway {
 
 // What of an object counts as occupied.
-enum class SolidMode { kConvexHull = 0, kVoxels = 1 };
+enum class SolidMode {
+  kConvexHull = 0,     // of its occupied voxels
+  kVoxels = 1,         // these alone
+  kCompletedHull = 2,  // the hull, and what is taken to be there unseen (Completion)
+};
+// By mode, as settings and flags name them.
+inline constexpr std::array<std::string_view, 3> kSolidModeNames = {"convex_hull", "voxels",
+                                                                    "completed_hull"};
 
 // How an object is taken to go on after its newest pose.
 enum class MotionModel {

@@ -1,0 +1,115 @@
+#include "scene/completion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace clearway {
+namespace {
+
+constexpr Duration kCourse = std::chrono::seconds(1);  // time over which it is taken
+constexpr double kFarEnough_m = 1;                     // in that time
+constexpr double kFast_mps = 3;                        // people on foot are slower
+constexpr double kLeastLength = 2;                     // of a vehicle, in widths
+
+// Horizontal, in O.
+struct Axes {
+  Eigen::Vector3d ahead, aside;
+};
+Axes AxesAt(double yaw_rad) {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {{c, s, 0}, {-s, c, 0}};
+}
+
+// From where to where points reach along an axis.
+struct Reach {
+  double least = std::numeric_limits<double>::max();
+  double most = std::numeric_limits<double>::lowest();
+  double Length() const { return most - least; }
+  double Middle() const { return 0.5 * (least + most); }
+  double OutsideOf(double at) const { return std::max({least - at, at - most, 0.0}); }
+};
+Reach ReachOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& axis) {
+  Reach reach;
+  for (const Eigen::Vector3d& p : points) {
+    reach.least = std::min(reach.least, axis.dot(p));
+    reach.most = std::max(reach.most, axis.dot(p));
+  }
+  return reach;
+}
+
+// The velocity of the object's middle over the last second, in O; none if that does not tell which
+// way its length lies: it hardly went anywhere, or it swings rather than drives (a boom, about its
+// end).
+std::optional<Eigen::Vector2d> CourseOf(const MovingObject& object) {
+  const StampedPose& now = object.history.back();
+  const StampedPose& before = *std::ranges::find_if(
+      object.history, [&](const StampedPose& pose) { return pose.stamp >= now.stamp - kCourse; });
+  if (before.stamp == now.stamp) return std::nullopt;
+  const Twist velocity_O = VelocityBetween(before, now);
+  const Aabb& box_O = object.solid->box_O;
+  const Eigen::Vector2d course_mps =
+      (velocity_O.linear + velocity_O.angular.cross(box_O.Center())).head<2>();
+  const double turned_mps = 0.5 * box_O.Size().head<2>().norm() * std::abs(velocity_O.angular.z());
+  const bool far = course_mps.norm() * ToSeconds(now.stamp - before.stamp) >= kFarEnough_m;
+  if (!far || turned_mps > 0.5 * course_mps.norm()) return std::nullopt;
+  return course_mps;
+}
+
+// Whether the flank is seen under at least ten degrees, so that rays tell where it ends.
+bool FlankIsSeen(const Reach& along, const Reach& across, double sensor_along,
+                 double sensor_across) {
+  const double before_m = along.OutsideOf(sensor_along);
+  const double beside_m = across.OutsideOf(sensor_across);
+  return beside_m > 0 && beside_m >= before_m * std::tan(10 * std::numbers::pi / 180);
+}
+
+}  // namespace
+
+std::optional<Completion> CompletionOf(const MovingObject& object,
+                                       const Eigen::Vector3d& sensor_W) {
+  if (object.solid == nullptr || object.solid->hull->vertices.empty()) return object.completion;
+  const std::optional<Eigen::Vector2d> course_mps = CourseOf(object);
+  if (!course_mps && !object.completion) return std::nullopt;
+  Completion completion = object.completion.value_or(Completion());
+  if (course_mps) completion.yaw_rad = std::atan2(course_mps->y(), course_mps->x());
+
+  const auto [ahead, aside] = AxesAt(completion.yaw_rad);
+  const Reach along = ReachOf(object.solid->hull->vertices, ahead);
+  const Reach across = ReachOf(object.solid->hull->vertices, aside);
+  const Eigen::Vector3d sensor_O = Inverse(object.history.back().T_W_O) * sensor_W;
+  const double sensor_along = ahead.dot(sensor_O);
+  completion.length_seen |= FlankIsSeen(along, across, sensor_along, aside.dot(sensor_O));
+  const bool vehicle =
+      completion.unseen_end != 0 || (course_mps && course_mps->norm() >= kFast_mps);
+  const bool whole = object.part_of == kStaticLabel;
+  const int far_end = sensor_along < along.Middle() ? 1 : -1;
+  completion.unseen_end = vehicle && whole && !completion.length_seen ? far_end : 0;
+  return completion;
+}
+
+void AddUnseen(const Completion& completion, std::vector<Eigen::Vector3d>& points) {
+  const auto [ahead, aside] = AxesAt(completion.yaw_rad);
+  const Reach along = ReachOf(points, ahead), across = ReachOf(points, aside);
+  // Whole parts of a unit: what is the same, or lies in one plane, would not for rounding.
+  const auto add = [&](const Eigen::Vector3d& p) {
+    constexpr double kPerUnit = 1024;
+    points.push_back((kPerUnit * p).array().round() / kPerUnit);
+  };
+  const auto repeat = [&](auto moved) {
+    const std::size_t count = points.size();
+    points.reserve(2 * count);
+    for (std::size_t i = 0; i < count; ++i) add(moved(points[i]));
+  };
+  repeat([&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return p + 2 * (across.Middle() - aside.dot(p)) * aside;
+  });
+  const double unseen = kLeastLength * across.Length() - along.Length();
+  if (completion.unseen_end == 0 || unseen <= 0) return;
+  repeat([&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return p + completion.unseen_end * unseen * ahead;
+  });
+}
+
+}  // namespace clearway
