@@ -90,8 +90,8 @@ std::optional<Completion> CompletionOf(const MovingObject& object,
 }
 
 void AddUnseen(const Completion& completion, std::vector<Eigen::Vector3d>& points) {
-  const auto [ahead, aside] = AxesAt(completion.yaw_rad);
-  const Reach along = ReachOf(points, ahead), across = ReachOf(points, aside);
+  const Axes axes = AxesAt(completion.yaw_rad);
+  const Reach along = ReachOf(points, axes.ahead), across = ReachOf(points, axes.aside);
   // Whole parts of a unit: what is the same, or lies in one plane, would not for rounding.
   const auto add = [&](const Eigen::Vector3d& p) {
     constexpr double kPerUnit = 1024;
@@ -103,12 +103,12 @@ void AddUnseen(const Completion& completion, std::vector<Eigen::Vector3d>& point
     for (std::size_t i = 0; i < count; ++i) add(moved(points[i]));
   };
   repeat([&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-    return p + 2 * (across.Middle() - aside.dot(p)) * aside;
+    return p + 2 * (across.Middle() - axes.aside.dot(p)) * axes.aside;
   });
   const double unseen = kLeastLength * across.Length() - along.Length();
   if (completion.unseen_end == 0 || unseen <= 0) return;
   repeat([&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-    return p + completion.unseen_end * unseen * ahead;
+    return p + completion.unseen_end * unseen * axes.ahead;
   });
 }
 

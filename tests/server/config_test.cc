@@ -84,7 +84,7 @@ TEST(ServerConfig, HelpNamesEverySettingAndAnExample) {
 
 TEST(ServerConfig, HelpListsWhatASettingMayBe) {
   const std::string help = ReadCommandLine({"--help"}, {})->help;
-  for (const char* values : {"last or track: extrapolate", "convex_hull or voxels",
+  for (const char* values : {"last or track: extrapolate", "convex_hull, completed_hull or voxels",
                              "trace, debug, info, warning, error or off"}) {
     EXPECT_NE(help.find(values), std::string::npos) << values;
   }
