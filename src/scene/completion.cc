@@ -8,10 +8,11 @@
 namespace clearway {
 namespace {
 
-constexpr Duration kCourse = std::chrono::seconds(1);  // time over which it is taken
-constexpr double kFarEnough_m = 1;                     // in that time
-constexpr double kFast_mps = 3;                        // people on foot are slower
-constexpr double kLeastLength = 2;                     // of a vehicle, in widths
+// Over what time a course is taken: about so long, and not less or more than these.
+constexpr Duration kCourse = std::chrono::seconds(1), kLeast = kCourse / 2, kMost = 3 * kCourse;
+constexpr double kFarEnough_m = 1;  // in that time
+constexpr double kFast_mps = 3;     // people who walk are slower
+constexpr double kLeastLength = 2;  // of a vehicle, in widths
 
 // Horizontal, in O.
 struct Axes {
@@ -44,25 +45,28 @@ Reach ReachOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d&
 // end).
 std::optional<Eigen::Vector2d> CourseOf(const MovingObject& object) {
   const StampedPose& now = object.history.back();
-  const StampedPose& before = *std::ranges::find_if(
-      object.history, [&](const StampedPose& pose) { return pose.stamp >= now.stamp - kCourse; });
-  if (before.stamp == now.stamp) return std::nullopt;
+  const auto later = std::ranges::find_if(
+      object.history, [&](const StampedPose& pose) { return pose.stamp > now.stamp - kCourse; });
+  const StampedPose& before = later == object.history.begin() ? *later : *(later - 1);
+  const Duration passed = now.stamp - before.stamp;
+  if (passed < kLeast || passed > kMost) return std::nullopt;
   const Twist velocity_O = VelocityBetween(before, now);
   const Aabb& box_O = object.solid->box_O;
   const Eigen::Vector2d course_mps =
       (velocity_O.linear + velocity_O.angular.cross(box_O.Center())).head<2>();
   const double turned_mps = 0.5 * box_O.Size().head<2>().norm() * std::abs(velocity_O.angular.z());
-  const bool far = course_mps.norm() * ToSeconds(now.stamp - before.stamp) >= kFarEnough_m;
+  const bool far = course_mps.norm() * ToSeconds(passed) >= kFarEnough_m;
   if (!far || turned_mps > 0.5 * course_mps.norm()) return std::nullopt;
   return course_mps;
 }
 
-// Whether the flank is seen under at least ten degrees, so that rays tell where it ends.
+// Whether the sensor is so far beside (or above) it that rays under ten degrees or more tell where
+// its flank (or its roof) ends, if nothing hides that.
 bool FlankIsSeen(const Reach& along, const Reach& across, double sensor_along,
                  double sensor_across) {
   const double before_m = along.OutsideOf(sensor_along);
   const double beside_m = across.OutsideOf(sensor_across);
-  return beside_m > 0 && beside_m >= before_m * std::tan(10 * std::numbers::pi / 180);
+  return beside_m >= before_m * std::tan(10 * std::numbers::pi / 180);
 }
 
 }  // namespace
@@ -73,7 +77,12 @@ std::optional<Completion> CompletionOf(const MovingObject& object,
   const std::optional<Eigen::Vector2d> course_mps = CourseOf(object);
   if (!course_mps && !object.completion) return std::nullopt;
   Completion completion = object.completion.value_or(Completion());
-  if (course_mps) completion.yaw_rad = std::atan2(course_mps->y(), course_mps->x());
+  if (course_mps) {
+    // In steps: what goes straight keeps its hull.
+    constexpr double kPerRad = 1000;
+    completion.yaw_rad =
+        std::round(kPerRad * std::atan2(course_mps->y(), course_mps->x())) / kPerRad;
+  }
 
   const auto [ahead, aside] = AxesAt(completion.yaw_rad);
   const Reach along = ReachOf(object.solid->hull->vertices, ahead);
@@ -87,6 +96,18 @@ std::optional<Completion> CompletionOf(const MovingObject& object,
   const int far_end = sensor_along < along.Middle() ? 1 : -1;
   completion.unseen_end = vehicle && whole && !completion.length_seen ? far_end : 0;
   return completion;
+}
+
+std::optional<Completion> JoinedCompletion(const std::optional<Completion>& lost,
+                                           const std::optional<Completion>& young,
+                                           const Pose& T_Y_L) {
+  if (!young) return lost;
+  Completion joined = *young;
+  const Eigen::Vector3d ahead_L = T_Y_L.rotation.conjugate() * AxesAt(young->yaw_rad).ahead;
+  joined.yaw_rad = std::atan2(ahead_L.y(), ahead_L.x());
+  joined.length_seen |= lost && lost->length_seen;
+  if (joined.length_seen) joined.unseen_end = 0;
+  return joined;
 }
 
 void AddUnseen(const Completion& completion, std::vector<Eigen::Vector3d>& points) {

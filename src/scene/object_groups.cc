@@ -74,6 +74,11 @@ void SetParts(const std::vector<ObjectPart>& parts, ObjectMap& objects) {
     if (place == objects.end() || place->second->part_of == whole) continue;
     MovingObject object = *place->second;
     object.part_of = whole;
+    if (whole != kStaticLabel && object.completion && object.completion->unseen_end != 0) {
+      object.completion->unseen_end = 0;
+      VoxelMap map_O = object.map_O;
+      object = WithMap(std::move(object), std::move(map_O));
+    }
     place->second = std::make_shared<const MovingObject>(std::move(object));
   }
 }

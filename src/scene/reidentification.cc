@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "scene/completion.h"
 #include "scene/position_bound.h"
 #include "scene/view_registration.h"
 
@@ -189,6 +190,7 @@ MovingObject Joined(const MovingObject& lost, const MovingObject& young, const P
   joined.also.push_back(young.id);
   joined.also.insert(joined.also.end(), young.also.begin(), young.also.end());
   joined.older_ids_told = std::max(lost.t_k(), young.older_ids_told);
+  joined.completion = JoinedCompletion(lost.completion, young.completion, T_Y_L);
   joined = WithMap(std::move(joined), WithVoxelsOf(lost.map_O, young.map_O, T_Y_L, pool));
   joined.bound = BoundOf(joined.history, joined.tracked_since, joined.velocity_O.value_or(Twist{}),
                          *joined.solid, params);

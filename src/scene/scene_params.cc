@@ -19,6 +19,17 @@ absl::Status CheckDuration(const char* field, Duration value) {
       absl::StrCat(field, " is ", ToSeconds(value), " s; it must lie between 0 and 86400 s"));
 }
 
+// The way that tells which half of an object was not seen is that of a second.
+absl::Status CheckCompletion(const SceneParams& params) {
+  constexpr Duration kLeast = std::chrono::seconds(1);
+  if (params.solid != SolidMode::kCompletedHull || params.history >= kLeast) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat("history_s is ", ToSeconds(params.history),
+                                                 " s; with completed hulls it must be at least ",
+                                                 ToSeconds(kLeast), " s"));
+}
+
 absl::Status CheckRestDistance(double value_m) {
   if (value_m >= 0 && value_m <= 10) return absl::OkStatus();
   return absl::InvalidArgumentError(
@@ -73,7 +84,7 @@ absl::Status Validate(const SceneParams& params) {
         CheckResolution("object_resolution_m", params.object_resolution_m),
         Validate(params.occupancy), CheckDuration("horizon_s", params.horizon),
         CheckDuration("object_lifetime_s", params.object_lifetime),
-        CheckDuration("history_s", params.history),
+        CheckDuration("history_s", params.history), CheckCompletion(params),
         CheckDuration("dynamic_life_s", params.dynamic_life),
         CheckDuration("dynamic_settle_s", params.dynamic_settle),
         CheckRestDistance(params.rest_distance_m),

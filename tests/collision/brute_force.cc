@@ -169,7 +169,7 @@ void BruteForce::Impl::AddObject(const MovingObject& object, Time time,
     obstacle.radius_m = *predicted.beyond_horizon_radius_m;
     obstacle.geometry = BallSizes(obstacle.radius_m);
     obstacles.push_back(obstacle);
-  } else if (scene->params.solid == SolidMode::kConvexHull || object.given()) {
+  } else if (object.FillsSolid(scene->params.solid)) {
     obstacle.radius_m = object.solid->radius_m;
     obstacle.geometry = SolidSizes(*object.solid);
     obstacles.push_back(obstacle);

@@ -70,7 +70,7 @@ ScenePtr RandomWorld::Scene() {
   SceneParams params;
   params.resolution_m = Below(2) ? 0.2 : 0.16;
   params.object_resolution_m = 0.15;
-  params.solid = Below(2) ? SolidMode::kVoxels : SolidMode::kConvexHull;
+  params.solid = static_cast<SolidMode>(Below(3));
   params.horizon = std::chrono::seconds(2);
   params.bounds_W = kRegion.Padded(0.5);
   if (Below(2)) {

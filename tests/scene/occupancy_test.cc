@@ -79,7 +79,7 @@ TEST(Occupancy, AgreesWithBruteForceOnRandomScenes) {
     ThreadPool pool(1);
     SceneParams params;
     params.resolution_m = params.object_resolution_m = 0.4;
-    params.solid = seed % 3 == 0 ? SolidMode::kVoxels : SolidMode::kConvexHull;
+    params.solid = static_cast<SolidMode>(seed % 3);
     params.bounds_W = {{-9, -9, -9}, {9, 9, 9}};
     params.keep_out_W = {{{-6, -6, -6}, {-5, -5, -5}}};
     params.horizon = std::chrono::seconds(1);
