@@ -32,13 +32,14 @@ std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Tim
 
 // Along which axis an object is completed by what no ray has met of it (SolidMode::kCompletedHull):
 // by the mirror image of what was seen, at the upright plane that halves its width; and, as long as
-// it was seen from one end alone, by what a vehicle must be long.
+// it was seen from one end alone, by how long a vehicle is taken to be at least.
 struct Completion {
   double yaw_rad = 0;  // of its length in O, about O's z: the way it goes
   // What went fast, and was only seen from behind, goes on ahead of what was seen (1); only seen
   // from before, behind it (-1). 0: not known to be longer than seen.
   int unseen_end = 0;
-  bool length_seen = false;  // its flank was, and is what its length is
+  // The sensor was so far beside or above it that rays could tell where it ends.
+  bool length_seen = false;
   bool operator==(const Completion&) const = default;
 };
 
