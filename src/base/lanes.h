@@ -13,5 +13,6 @@ inline constexpr int kLanes = 8;
 using LaneFloats [[gnu::vector_size(kLanes * 4), gnu::aligned(kLanes * 4)]] = float;
 using LaneDoubles [[gnu::vector_size(kLanes * 8), gnu::aligned(kLanes * 8)]] = double;
 using LaneInts [[gnu::vector_size(kLanes * 4), gnu::aligned(kLanes * 4)]] = std::int32_t;
+using LaneLongs [[gnu::vector_size(kLanes * 8), gnu::aligned(kLanes * 8)]] = std::int64_t;
 
 }  // namespace clearway

@@ -54,8 +54,9 @@ class BitWindow {
   static constexpr int kBlocksPerWord = 32 / kBlockSize;
 
   std::uint32_t* Row(std::size_t row, int line);
-  // Calls visit(z, y, index, bits) for each line along x of the block in which some of the voxels
-  // lie: the index of its first voxel, and which of its eight they are. A line lies in one word.
+  // Calls visit(z, y, index, bits) for the lines along x of the block's layers in which some of the
+  // voxels lie: the index of its first voxel, and which of its eight they are. A line lies in one
+  // word.
   template <class Visit>
   void ForEachLine(const Block& voxels, Visit&& visit) const;
 

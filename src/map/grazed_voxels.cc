@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "base/multiversion.h"
 
 namespace clearway {
 namespace {
@@ -76,36 +79,73 @@ void KeepInLayers(const EndingRays& rays, const SurfaceLayers& layers, PickedRay
   picked.size = size;
 }
 
-// What part of a ray, from its end back to its origin, lies in the layer of its end voxel that is
-// level along one of the axes. A little more, so that the voxel where it ends is the next layer's.
-double PartInLayer(double resolution_m, VoxelKey end_voxel, unsigned axes, const RaySegment& ray) {
-  const std::int32_t voxel[3] = {end_voxel.x, end_voxel.y, end_voxel.z};
-  const double beyond_m = 1e-4 * resolution_m;
-  double part = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low_m = voxel[axis] * resolution_m;
-    const double end_m = ray.end[axis], back_m = ray.origin[axis] - end_m;
-    const double before_m = end_m - low_m, behind_m = low_m + resolution_m - end_m;
-    const double leaves_m = (back_m < 0 ? before_m : behind_m) + beyond_m;
-    const double in_layer = std::min(leaves_m / std::abs(back_m), 1.0);
-    part = std::max(part, in_layer * static_cast<double>(axes >> axis & 1));
+// Eight of the picked rays, a lane each.
+struct EndingEight {
+  RaySegments rays;
+  LaneInts voxel[3];  // of the end
+  LaneInts axes;
+};
+
+// From pick k on; after the last, that one again.
+void Gather(const EndingRays& rays, const PickedRays& picked, std::size_t k, EndingEight& eight) {
+  const bool one_origin = rays.origins.size() == 1;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const std::size_t pick = std::min(k + lane, picked.size - 1);
+    const std::uint32_t i = picked.rays[pick];
+    const VoxelKey voxel = rays.voxels[i];
+    Put({rays.origins[one_origin ? 0 : i], rays.ends[i]}, lane, eight.rays);
+    eight.voxel[0][lane] = voxel.x;
+    eight.voxel[1][lane] = voxel.y;
+    eight.voxel[2][lane] = voxel.z;
+    eight.axes[lane] = picked.axes[pick];
   }
-  return part;
 }
 
-// The stretch of a ray, from its end back, along which it spares what is occupied.
-RaySegment StretchOf(const RaySegment& ray, double part_in_layer, float grazing_m) {
-  const Eigen::Vector3f back = ray.origin - ray.end;
-  const float part = std::min(grazing_m / back.norm(), static_cast<float>(part_in_layer));
-  const Eigen::Vector3f inside = ray.end + part * back;
-  return {ray.end, part < 1 ? inside : ray.origin};
+// What part of each ray, from its end back to its origin, lies in the layer of its end voxel that
+// is level along one of the axes. A little more, so that the voxel where it ends is the next
+// layer's.
+inline void FindPartsInLayer(double resolution_m, const EndingEight& eight, LaneDoubles& part) {
+  const double beyond_m = 1e-4 * resolution_m;
+  part = LaneDoubles{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const LaneDoubles low_m =
+        __builtin_convertvector(eight.voxel[axis], LaneDoubles) * resolution_m;
+    const LaneDoubles end_m = __builtin_convertvector(eight.rays.end[axis], LaneDoubles);
+    const LaneDoubles back_m =
+        __builtin_convertvector(eight.rays.origin[axis], LaneDoubles) - end_m;
+    const LaneDoubles before_m = end_m - low_m, behind_m = low_m + resolution_m - end_m;
+    const LaneDoubles leaves_m = (back_m < 0 ? before_m : behind_m) + beyond_m;
+    const LaneDoubles in_layer = leaves_m / (back_m < 0 ? -back_m : back_m);
+    const LaneInts level = (eight.axes >> axis & 1) != 0;
+    const LaneDoubles counted =
+        __builtin_convertvector(level, LaneLongs) ? in_layer : LaneDoubles{};
+    part = counted > part ? counted : part;
+  }
+}
+
+// The stretch of each ray, from its end back, along which it spares what is occupied.
+CLEARWAY_MULTIVERSION void FindStretchesOf(const EndingEight& eight, double resolution_m,
+                                           float grazing_m, RaySegments& stretches) {
+  LaneDoubles part_in_layer;
+  FindPartsInLayer(resolution_m, eight, part_in_layer);
+  const auto& [origin, end] = eight.rays;
+  const LaneFloats back[3] = {origin[0] - end[0], origin[1] - end[1], origin[2] - end[2]};
+  const LaneFloats square = back[0] * back[0] + back[1] * back[1] + back[2] * back[2];
+  LaneFloats length_m;
+  for (int lane = 0; lane < kLanes; ++lane) length_m[lane] = std::sqrt(square[lane]);
+  const LaneFloats near = grazing_m / length_m;
+  const LaneFloats level = __builtin_convertvector(part_in_layer, LaneFloats);
+  const LaneFloats part = near < level ? near : level;
+  for (int axis = 0; axis < 3; ++axis) {
+    stretches.origin[axis] = end[axis];
+    stretches.end[axis] = part < 1 ? end[axis] + part * back[axis] : origin[axis];
+  }
 }
 
 }  // namespace
 
 void GrazedVoxels::FindStretches(const VoxelGrid& grid, const SurfaceLayers& layers,
                                  const EndingRays& rays, double grazing_m, ThreadPool& pool) {
-  const bool one_origin = rays.origins.size() == 1;
   stretches_.resize((rays.ends.size() + kRaysTogether - 1) / kRaysTogether);
   const auto find = [&](int, std::size_t begin, std::size_t end) {
     PickedRays picked;
@@ -113,11 +153,16 @@ void GrazedVoxels::FindStretches(const VoxelGrid& grid, const SurfaceLayers& lay
     KeepInLayers(rays, layers, picked);
     std::vector<Stretch>& found = stretches_[begin / kRaysTogether];
     found.resize(picked.size);
-    for (std::size_t k = 0; k < picked.size; ++k) {
-      const std::uint32_t i = picked.rays[k];
-      const RaySegment ray{rays.origins[one_origin ? 0 : i], rays.ends[i]};
-      const double part = PartInLayer(grid.resolution_m(), rays.voxels[i], picked.axes[k], ray);
-      found[k] = {StretchOf(ray, part, static_cast<float>(grazing_m)), rays.sectors[i]};
+    for (std::size_t k = 0; k < picked.size; k += kLanes) {
+      EndingEight eight;
+      Gather(rays, picked, k, eight);
+      RaySegments stretches;
+      FindStretchesOf(eight, grid.resolution_m(), static_cast<float>(grazing_m), stretches);
+      const std::size_t count = std::min<std::size_t>(kLanes, picked.size - k);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        found[k + lane] = {SegmentIn(stretches, static_cast<int>(lane)),
+                           rays.sectors[picked.rays[k + lane]]};
+      }
     }
   };
   pool.ParallelChunks(rays.ends.size(), kRaysTogether, find);

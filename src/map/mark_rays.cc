@@ -88,7 +88,7 @@ class Marker {
 }  // namespace
 
 // A ray strays by less than a voxel from its segment.
-BlockRange BlocksAround(const VoxelGrid& grid, const RayRounds::Boxes& boxes) {
+BlockRange BlocksAround(const VoxelGrid& grid, const RayBoxes& boxes) {
   const auto block_at = [&](const Eigen::Vector3f& p, int stray) {
     const VoxelKey key = grid.KeyOf(p.cast<double>());
     return BlockOf(VoxelKey{key.x + stray, key.y + stray, key.z + stray});
@@ -101,6 +101,20 @@ void MarkRays(const VoxelGrid& grid, const RayRounds& rays, bool one_origin, Bit
   if (rays.size() == 0) return;
   Marker marker(grid, rays, one_origin, window);
   for (std::size_t round = 0; round < RayRounds::kCount; ++round) marker.Walk(round);
+}
+
+void MarkShortRays(const VoxelGrid& grid, std::span<const RaySegments> rays, BitWindow& window) {
+  static const WindowWalk walk = FastestShortWindowWalk();
+  std::array<WindowRays, kWalkedTogether> ready;
+  for (std::size_t begin = 0; begin < rays.size(); begin += ready.size()) {
+    const std::size_t count = std::min(ready.size(), rays.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      RayLanes started;
+      StartLanes(grid, rays[begin + i], started);
+      PlaceInWindow(started, window, ready[i]);
+    }
+    walk(std::span(ready).first(count), window.words());
+  }
 }
 
 }  // namespace clearway

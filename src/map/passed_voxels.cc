@@ -15,7 +15,7 @@ bool Holds(BlockKey first, BlockKey last, BlockKey key) {
 }  // namespace
 
 void PassedVoxels::Clear() {
-  for (Sector& sector : sectors_) sector.rays.Clear();
+  for (Sector& sector : sectors_) sector.Clear();
 }
 
 std::vector<BlockMask> PassedVoxels::Among(std::span<const BitWindow::Block> candidates,
@@ -29,12 +29,20 @@ std::vector<BlockMask> PassedVoxels::Among(std::span<const BitWindow::Block> can
   return passed;
 }
 
+void PassedVoxels::Sector::Clear() {
+  for (RayEights& of_length : rays) of_length.Clear();
+}
+
 void PassedVoxels::Sector::Find(std::span<const BitWindow::Block> candidates,
                                 const VoxelGrid& grid) {
   passed.clear();
-  if (rays.size() == 0) return;
-  rays.Finish();
-  const auto [first, last] = BlocksAround(grid, rays.BoxesAround());
+  RayBoxes boxes;
+  for (RayEights& of_length : rays) {
+    of_length.Finish();
+    boxes.Extend(BoxesAround(of_length.eights()));
+  }
+  if (boxes.ends.isEmpty()) return;
+  const auto [first, last] = BlocksAround(grid, boxes);
   if (BitWindow::Fits(first, last)) {
     FindIn(first, last, candidates, grid);
   } else {
@@ -51,7 +59,7 @@ void PassedVoxels::Sector::FindIn(BlockKey first, BlockKey last,
     window.Clear(candidates[i]);
     passed.push_back({i, {}});
   }
-  MarkRays(grid, rays, false, window);
+  for (const RayEights& of_length : rays) MarkShortRays(grid, of_length.eights(), window);
   for (auto& [candidate, found] : passed) found = window.SetOf(candidates[candidate]);
 }
 
@@ -69,7 +77,9 @@ void PassedVoxels::Sector::FindSparsely(std::span<const BitWindow::Block> candid
     const int at = IndexInBlock(voxel);
     if (candidates[entry->second].mask.Test(at)) passed[entry->second].mask.Set(at);
   };
-  rays.ForEach([&](const RaySegment& ray) { WalkRay(grid, ray.origin, ray.end, look_at); });
+  for (const RayEights& of_length : rays) {
+    of_length.ForEach([&](const RaySegment& ray) { WalkRay(grid, ray.origin, ray.end, look_at); });
+  }
 }
 
 }  // namespace clearway

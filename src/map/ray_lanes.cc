@@ -9,8 +9,6 @@
 namespace clearway {
 namespace {
 
-using Mask [[gnu::vector_size(kLanes * 8), gnu::aligned(kLanes * 8)]] = std::int64_t;
-
 double Least(const LaneDoubles& values) {
   double least = values[0];
   for (int lane = 1; lane < kLanes; ++lane) least = std::min(least, values[lane]);
@@ -50,7 +48,7 @@ CLEARWAY_MULTIVERSION void Start(double resolution_m, const RaySegments& segment
     const LaneDoubles border =
         (__builtin_convertvector(rays.key[axis], LaneDoubles) + 0.5) * resolution_m +
         __builtin_convertvector(__builtin_convertvector(half_step, LaneFloats), LaneDoubles);
-    const Mask moves = __builtin_convertvector(rays.step[axis] != 0, Mask);
+    const LaneLongs moves = __builtin_convertvector(rays.step[axis] != 0, LaneLongs);
     rays.t_max[axis] = moves ? (border - __builtin_convertvector(origin[axis], LaneDoubles)) / slope
                              : kNever + LaneDoubles{};
     rays.t_delta[axis] =
@@ -106,6 +104,17 @@ CLEARWAY_MULTIVERSION void Place(const RayLanes& rays, const BitWindow& window,
 }
 
 }  // namespace
+
+void RayEights::Clear() {
+  eights_.clear();
+  size_ = 0;
+}
+
+void RayEights::Finish() {
+  if (size_ == 0) return;
+  const Eigen::Vector3f origin = SegmentIn(eights_[0], 0).origin;
+  while (size_ % kLanes != 0) Add({origin, origin});
+}
 
 void StartLanes(const VoxelGrid& grid, const RaySegments& segments, RayLanes& rays) {
   Start(grid.resolution_m(), segments, rays);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "base/lanes.h"
 #include "clearway/map/ray.h"
@@ -30,6 +32,33 @@ inline void Put(const RaySegment& segment, int lane, RaySegments& segments) {
     segments.end[axis][lane] = segment.end[axis];
   }
 }
+
+// Rays by eights, in the order in which they come. Keeps its memory when cleared.
+class RayEights {
+ public:
+  void Clear();
+  void Add(const RaySegment& ray) {
+    const auto lane = static_cast<int>(size_++ % kLanes);
+    if (lane == 0) eights_.emplace_back();
+    Put(ray, lane, eights_.back());
+  }
+  // Once, after the last ray.
+  void Finish();
+
+  // Once finished. Some may be rays that go nowhere.
+  std::span<const RaySegments> eights() const { return eights_; }
+  // Calls visit(RaySegment) for each of them.
+  template <class Visit>
+  void ForEach(Visit&& visit) const {
+    for (const RaySegments& eight : eights_) {
+      for (int lane = 0; lane < kLanes; ++lane) visit(SegmentIn(eight, lane));
+    }
+  }
+
+ private:
+  std::vector<RaySegments> eights_;
+  std::size_t size_ = 0;
+};
 
 // What RayStart is for one ray, bit for bit.
 struct RayLanes {

@@ -1,10 +1,7 @@
 #include "map/ray_rounds.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
-
-#include "base/multiversion.h"
 
 namespace clearway {
 namespace {
@@ -28,45 +25,6 @@ void DealTo(std::vector<RaySegments>& round, const std::array<std::size_t, kPlac
   }
 }
 
-// Eight boxes, a lane each.
-struct LaneBoxes {
-  LaneFloats min[3], max[3];
-};
-
-void Extend(const LaneFloats (&point)[3], LaneBoxes& boxes) {
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes.min[axis] = point[axis] < boxes.min[axis] ? point[axis] : boxes.min[axis];
-    boxes.max[axis] = point[axis] > boxes.max[axis] ? point[axis] : boxes.max[axis];
-  }
-}
-
-CLEARWAY_MULTIVERSION void Extend(const std::vector<RaySegments>& rays, LaneBoxes& origins,
-                                  LaneBoxes& ends) {
-  for (const RaySegments& eight : rays) {
-    Extend(eight.origin, origins);
-    Extend(eight.end, ends);
-  }
-}
-
-LaneBoxes Empty() {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  LaneBoxes boxes;
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes.min[axis] = LaneFloats{} + kFar;
-    boxes.max[axis] = LaneFloats{} - kFar;
-  }
-  return boxes;
-}
-
-Eigen::AlignedBox3f Around(const LaneBoxes& boxes) {
-  Eigen::AlignedBox3f box;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    box.extend(Eigen::Vector3f(boxes.min[0][lane], boxes.min[1][lane], boxes.min[2][lane]));
-    box.extend(Eigen::Vector3f(boxes.max[0][lane], boxes.max[1][lane], boxes.max[2][lane]));
-  }
-  return box;
-}
-
 }  // namespace
 
 void RayRounds::Clear() {
@@ -88,10 +46,10 @@ void RayRounds::Deal() {
   DealTo(rounds_[2], kRest, waiting_);
 }
 
-RayRounds::Boxes RayRounds::BoxesAround() const {
-  LaneBoxes origins = Empty(), ends = Empty();
-  for (const auto& round : rounds_) Extend(round, origins, ends);
-  return {Around(origins), Around(ends)};
+RayBoxes RayRounds::BoxesAround() const {
+  RayBoxes boxes;
+  for (const auto& round : rounds_) boxes.Extend(clearway::BoxesAround(round));
+  return boxes;
 }
 
 }  // namespace clearway

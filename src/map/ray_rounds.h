@@ -1,13 +1,12 @@
 // The order in which the rays of a scan are walked.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "map/ray_lanes.h"
+#include "map/ray_boxes.h"
 
 namespace clearway {
 
@@ -47,12 +46,7 @@ class RayRounds {
       }
     }
   }
-  // Where all rays begin, and where they end, those that go nowhere too. There must be a ray. Looks
-  // at each.
-  struct Boxes {
-    Eigen::AlignedBox3f origins, ends;
-  };
-  Boxes BoxesAround() const;
+  RayBoxes BoxesAround() const;
 
  private:
   static constexpr std::size_t kDealtTogether = kInARow * kLanes;  // whole eights to each round

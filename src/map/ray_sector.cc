@@ -15,7 +15,7 @@ const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid,
   const std::int64_t most = left;
   if (size() == 0 || most < 0) return blocks_;
   rays_.Finish();
-  const RayRounds::Boxes boxes = rays_.BoxesAround();
+  const RayBoxes boxes = rays_.BoxesAround();
   const auto [first, last] = BlocksAround(grid, boxes);
   if (BitWindow::Fits(first, last)) {
     MarkInWindow(grid, boxes, first, last);
@@ -26,7 +26,7 @@ const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid,
   return blocks_;
 }
 
-void RaySector::MarkInWindow(const VoxelGrid& grid, const RayRounds::Boxes& boxes, BlockKey first,
+void RaySector::MarkInWindow(const VoxelGrid& grid, const RayBoxes& boxes, BlockKey first,
                              BlockKey last) {
   window_.Cover(first, last);
   const bool one_origin = boxes.origins.min() == boxes.origins.max();

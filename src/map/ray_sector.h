@@ -36,8 +36,7 @@ class RaySector {
   const std::vector<BitWindow::Block>& Mark(const VoxelGrid& grid, std::atomic<std::int64_t>& left);
 
  private:
-  void MarkInWindow(const VoxelGrid& grid, const RayRounds::Boxes& boxes, BlockKey first,
-                    BlockKey last);
+  void MarkInWindow(const VoxelGrid& grid, const RayBoxes& boxes, BlockKey first, BlockKey last);
   // Without a window, which would be too large. Stops after `most` blocks and one.
   void MarkSparsely(const VoxelGrid& grid, std::int64_t most);
 

@@ -21,19 +21,64 @@ std::array<BlockKey, kBlocks> Around(BlockKey key) {
            {x, y, z + 1}}};
 }
 
+constexpr std::uint64_t kFirstX = 0x0101010101010101, kLastX = kFirstX << 7;
+constexpr std::uint64_t kFirstY = 0xff, kLastY = kFirstY << 56;
+
+// Which of those blocks tell something about some of the block's voxels: bit i is that of place i.
+unsigned NeededFor(const BlockMask& voxels) {
+  std::uint64_t columns = 0;
+  for (const std::uint64_t layer : voxels.words) columns |= layer;
+  const auto if_any = [](std::uint64_t bits, Place place) { return unsigned{bits != 0} << place; };
+  return 1U << kItself | if_any(columns & kFirstX, kBelowX) | if_any(columns & kLastX, kAboveX) |
+         if_any(columns & kFirstY, kBelowY) | if_any(columns & kLastY, kAboveY) |
+         if_any(voxels.words.front(), kBelowZ) | if_any(voxels.words.back(), kAboveZ);
+}
+
 // Masks of the occupied voxels in those blocks; of one that does not exist, none.
 using OccupiedAround = std::array<const BlockMask*, kBlocks>;
 
-OccupiedAround OccupiedIn(const VoxelBlock* const* blocks) {
-  static constexpr BlockMask kNone{};
-  OccupiedAround occupied;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
-    occupied[i] = blocks[i] == nullptr ? &kNone : &blocks[i]->occupied;
-  }
-  return occupied;
-}
+// A few blocks, and what of their neighbours tells something: their memory is waited for at once.
+class Neighbourhoods {
+ public:
+  static constexpr std::size_t kMost = 32;
 
-constexpr std::uint64_t kFirstX = 0x0101010101010101, kLastX = kFirstX << 7;
+  void Add(BlockKey key, const BlockMask& voxels) {
+    const unsigned needed = NeededFor(voxels);
+    const std::array<BlockKey, kBlocks> around = Around(key);
+    for (unsigned place = 0; place < kBlocks; ++place) {
+      keys_[count_] = around[place];
+      slots_[count_] = size_ * kBlocks + place;
+      count_ += needed >> place & 1;
+    }
+    ++size_;
+  }
+  void FindIn(const VoxelMap& map) {
+    std::array<const VoxelBlock*, kMost * kBlocks> found;
+    map.blocks().FindOccupied(std::span(keys_).first(count_), found.data());
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (found[i] != nullptr) occupied_[slots_[i]] = &found[i]->occupied;
+    }
+  }
+  // Of the i-th that was added.
+  OccupiedAround Occupied(std::size_t i) const {
+    OccupiedAround occupied;
+    std::copy_n(&occupied_[i * kBlocks], kBlocks, occupied.begin());
+    return occupied;
+  }
+
+ private:
+  static constexpr BlockMask kNone{};
+  static std::array<const BlockMask*, kMost * kBlocks> AllNone() {
+    std::array<const BlockMask*, kMost * kBlocks> none;
+    none.fill(&kNone);
+    return none;
+  }
+
+  std::size_t size_ = 0, count_ = 0;
+  std::array<BlockKey, kMost * kBlocks + 1> keys_;  // one more: written, and perhaps not kept
+  std::array<std::size_t, kMost * kBlocks + 1> slots_;
+  std::array<const BlockMask*, kMost* kBlocks> occupied_ = AllNone();
+};
 
 std::uint64_t BesideAlongX(std::uint64_t word, std::uint64_t below, std::uint64_t above) {
   return (word & ~kLastX) << 1 | (word & ~kFirstX) >> 1 | (below & kLastX) >> 7 |
@@ -60,25 +105,23 @@ void FindBeside(const OccupiedAround& occupied,
 
 SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, ThreadPool& pool)
     : blocks_by_place_(update.keys().size()) {
-  std::vector<BlockKey> keys;
+  std::vector<std::size_t> places;
   for (std::size_t place = 0; place < update.keys().size(); ++place) {
     if (!update.block(place).end.Any()) continue;
-    blocks_by_place_[place] = static_cast<std::uint32_t>(keys.size());
-    keys.push_back(update.keys()[place]);
+    blocks_by_place_[place] = static_cast<std::uint32_t>(places.size());
+    places.push_back(place);
   }
-  blocks_.resize(keys.size());
-  constexpr std::size_t kTogether = 32;  // blocks whose memory is waited for at once
-  pool.ParallelChunks(keys.size(), kTogether, [&](int, std::size_t begin, std::size_t end) {
-    std::array<BlockKey, kTogether * kBlocks> around;
-    std::array<const VoxelBlock*, kTogether * kBlocks> found;
-    for (std::size_t i = begin; i < end; ++i) {
-      std::ranges::copy(Around(keys[i]), &around[(i - begin) * kBlocks]);
-    }
-    map.blocks().FindOccupied(std::span(around).first((end - begin) * kBlocks), found.data());
-    for (std::size_t i = begin; i < end; ++i) {
-      FindBeside(OccupiedIn(&found[(i - begin) * kBlocks]), blocks_[i]);
-    }
-  });
+  blocks_.resize(places.size());
+  pool.ParallelChunks(places.size(), Neighbourhoods::kMost,
+                      [&](int, std::size_t begin, std::size_t end) {
+                        Neighbourhoods around;
+                        for (std::size_t i = begin; i < end; ++i) {
+                          around.Add(update.keys()[places[i]], update.block(places[i]).end);
+                        }
+                        around.FindIn(map);
+                        for (std::size_t i = begin; i < end; ++i)
+                          FindBeside(around.Occupied(i - begin), blocks_[i]);
+                      });
 }
 
 }  // namespace clearway

@@ -92,5 +92,8 @@ void WalkWindowPortable(std::span<const WindowRays> rays, std::uint32_t* words) 
 }
 
 WindowWalk FastestWindowWalk() { return HasAvx512() ? WalkWindowAvx512 : WalkWindowPortable; }
+WindowWalk FastestShortWindowWalk() {
+  return HasAvx512() ? WalkWindowAbreastAvx512 : WalkWindowPortable;
+}
 
 }  // namespace clearway

@@ -30,7 +30,12 @@ void WalkWindowPortable(std::span<const WindowRays> rays, std::uint32_t* words);
 // of which HasAvx512() is true.
 void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words);
 
-// The fastest one for this processor.
+// Eight rays at a time, which begin together and wait for the last of them: faster for rays of a
+// few voxels each, of which neighbours are about as long. Only where HasAvx512() is true.
+void WalkWindowAbreastAvx512(std::span<const WindowRays> rays, std::uint32_t* words);
+
+// The fastest one for this processor: for any rays, and for short ones.
 WindowWalk FastestWindowWalk();
+WindowWalk FastestShortWindowWalk();
 
 }  // namespace clearway

@@ -81,6 +81,18 @@ class Queue {
   std::size_t under_way_ = 0;
 };
 
+// Sets the bits of the voxels that some of the rays are in.
+CLEARWAY_AVX512 inline void Mark(const Group& g, __mmask8 lanes, std::uint32_t* words) {
+  alignas(32) std::uint32_t word[kLanes], bit[kLanes];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(word), _mm256_srli_epi32(g.index, 5));
+  _mm256_store_si256(reinterpret_cast<__m256i*>(bit),
+                     _mm256_maskz_sllv_epi32(lanes, _mm256_set1_epi32(1),
+                                             _mm256_and_si256(g.index, _mm256_set1_epi32(31))));
+  // Through memory: to take lanes out of registers one by one takes twice as long.
+  asm("" : "+m"(word), "+m"(bit));
+  for (int lane = 0; lane < kLanes; ++lane) words[word[lane]] |= bit[lane];
+}
+
 // One step of eight rays, as Step in window_walk.cc. Returns which end with it.
 CLEARWAY_AVX512 inline unsigned Step(Group& g, std::uint32_t* words) {
   const __mmask8 x_before_y = _mm512_cmp_pd_mask(g.x, g.y, _CMP_LT_OQ);
@@ -98,14 +110,7 @@ CLEARWAY_AVX512 inline unsigned Step(Group& g, std::uint32_t* words) {
   const __m512d next = _mm512_min_pd(_mm512_min_pd(g.x, g.y), g.z);
   const unsigned ended =
       _mm256_cmpeq_epi32_mask(g.index, g.end) | _mm512_cmp_pd_mask(next, g.length_m, _CMP_GT_OQ);
-  alignas(32) std::uint32_t word[kLanes], bit[kLanes];
-  _mm256_store_si256(reinterpret_cast<__m256i*>(word), _mm256_srli_epi32(g.index, 5));
-  _mm256_store_si256(reinterpret_cast<__m256i*>(bit),
-                     _mm256_maskz_sllv_epi32(static_cast<__mmask8>(~ended), _mm256_set1_epi32(1),
-                                             _mm256_and_si256(g.index, _mm256_set1_epi32(31))));
-  // Through memory: to take lanes out of registers one by one takes twice as long.
-  asm("" : "+m"(word), "+m"(bit));
-  for (int lane = 0; lane < kLanes; ++lane) words[word[lane]] |= bit[lane];
+  Mark(g, static_cast<__mmask8>(~ended), words);
   return ended;
 }
 
@@ -130,10 +135,74 @@ CLEARWAY_AVX512 void Walk(std::span<const WindowRays> rays, std::uint32_t* words
   }
 }
 
+CLEARWAY_AVX512 inline void Load(const WindowRays& rays, Group& group) {
+  const auto load = [](__m512d& lanes, const LaneDoubles& values)
+                        CLEARWAY_AVX512 { lanes = _mm512_load_pd(&values); };
+  const auto load_ints = [](__m256i& lanes, const LaneInts& values) CLEARWAY_AVX512 {
+    lanes = _mm256_load_si256(reinterpret_cast<const __m256i*>(&values));
+  };
+  load(group.x, rays.t_max[0]);
+  load(group.y, rays.t_max[1]);
+  load(group.z, rays.t_max[2]);
+  load(group.dx, rays.t_delta[0]);
+  load(group.dy, rays.t_delta[1]);
+  load(group.dz, rays.t_delta[2]);
+  load(group.length_m, rays.length_m);
+  load_ints(group.sx, rays.stride[0]);
+  load_ints(group.sy, rays.stride[1]);
+  load_ints(group.sz, rays.stride[2]);
+  load_ints(group.index, rays.index);
+  load_ints(group.end, rays.end);
+}
+
+// Eight rays that begin together, and wait for the last of them. Those at their end step on the
+// spot.
+class Eight {
+ public:
+  CLEARWAY_AVX512 Eight(const WindowRays& rays, std::uint32_t* words) {
+    Load(rays, group_);
+    StopAll(_mm256_cmpeq_epi32_mask(group_.index, group_.end));
+    Mark(group_, under_way_, words);
+  }
+  CLEARWAY_AVX512 void Go(std::uint32_t* words) {
+    const unsigned ended = Step(group_, words) & under_way_;
+    if (__builtin_expect(ended != 0, 0)) StopAll(static_cast<__mmask8>(ended));
+  }
+  bool UnderWay() const { return under_way_ != 0; }
+
+ private:
+  CLEARWAY_AVX512 void StopAll(__mmask8 ended) {
+    under_way_ = static_cast<__mmask8>(under_way_ & ~ended);
+    for (__m256i* stride : {&group_.sx, &group_.sy, &group_.sz}) {
+      *stride = _mm256_maskz_mov_epi32(under_way_, *stride);
+    }
+  }
+
+  Group group_;
+  __mmask8 under_way_ = 0xff;
+};
+
+CLEARWAY_AVX512 void WalkAbreast(std::span<const WindowRays> rays, std::uint32_t* words) {
+  std::size_t i = 0;
+  for (; i + 1 < rays.size(); i += 2) {
+    Eight a(rays[i], words), b(rays[i + 1], words);
+    while (a.UnderWay() || b.UnderWay()) {
+      a.Go(words);
+      b.Go(words);
+    }
+  }
+  if (i == rays.size()) return;
+  for (Eight last(rays[i], words); last.UnderWay();) last.Go(words);
+}
+
 }  // namespace
 
 void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   if (!rays.empty()) Walk(rays, words);
+}
+
+void WalkWindowAbreastAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
+  WalkAbreast(rays, words);
 }
 
 }  // namespace clearway
@@ -143,6 +212,10 @@ void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
 namespace clearway {
 
 void WalkWindowAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
+  WalkWindowPortable(rays, words);
+}
+
+void WalkWindowAbreastAvx512(std::span<const WindowRays> rays, std::uint32_t* words) {
   WalkWindowPortable(rays, words);
 }
 

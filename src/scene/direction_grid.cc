@@ -12,12 +12,6 @@ constexpr auto& RowsAbout = DirectionCells::RowsAbout;
 // How much farther or nearer a neighbour may be.
 float Apart_m(float range_m) { return 0.03f * range_m + 0.2f; }
 
-// A point of a cloud in a cell.
-struct Entry {
-  std::uint32_t cell, index;
-  bool is_copy;  // in the rim of a face that the point is not on
-};
-
 // The cell that each point of a cloud is in on the face that it is on.
 std::vector<std::uint32_t> OwnCells(const LabelledCloud& cloud, const DirectionCells& cells) {
   std::vector<std::uint32_t> own(cloud.ends_W.size());
@@ -41,10 +35,11 @@ std::vector<char> CellsNearObjects(const LabelledCloud& cloud, const DirectionCe
 }
 
 // The points whose own cell has a point of an object within a cell of it.
-std::vector<Entry> EntriesNearObjects(const LabelledCloud& cloud, const DirectionCells& cells) {
+std::vector<DirectionEntry> EntriesNearObjects(const LabelledCloud& cloud,
+                                               const DirectionCells& cells) {
   const std::vector<std::uint32_t> own = OwnCells(cloud, cells);
   const std::vector<char> is_near = CellsNearObjects(cloud, cells, own);
-  std::vector<Entry> entries;
+  std::vector<DirectionEntry> entries;
   for (std::uint32_t i = 0; i < own.size(); ++i) {
     if (!is_near[own[i]] || cloud.kinds[i] == RayEnd::kClear) continue;
     entries.push_back({own[i], i, false});
@@ -71,21 +66,16 @@ DirectionGrid::DirectionGrid(const LabelledCloud& cloud) {
 }
 
 void DirectionGrid::Fill(const LabelledCloud& cloud, const DirectionCells& cells) {
-  const std::vector<Entry> entries = EntriesNearObjects(cloud, cells);
-  begin_.assign(DirectionCells::kCount + 1, 0);
-  for (const Entry& entry : entries) ++begin_[entry.cell];
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  std::vector<Entry> sorted(entries.size());
-  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-    sorted[--begin_[entry->cell]] = *entry;  // each cell's end moves to its beginning
-  }
+  const std::vector<DirectionEntry> entries = EntriesNearObjects(cloud, cells);
+  CountCells(entries);
   const Eigen::Vector3f from_W = cloud.origins_W[0];
-  for (auto* array : {&cells_, &indices_}) array->resize(sorted.size());
-  for (auto* array : {&x_m_, &y_m_, &z_m_, &ranges_m_}) array->resize(sorted.size());
-  is_copy_.resize(sorted.size());
-  labels_.resize(sorted.size());
-  for (std::size_t place = 0; place < sorted.size(); ++place) {
-    const auto& [cell, i, is_copy] = sorted[place];
+  for (auto* array : {&cells_, &indices_, &alike_until_}) array->resize(entries.size());
+  for (auto* array : {&x_m_, &y_m_, &z_m_, &ranges_m_}) array->resize(entries.size());
+  is_copy_.resize(entries.size());
+  labels_.resize(entries.size());
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    const auto& [cell, i, is_copy] = *entry;
+    const std::size_t place = --begin_[cell - first_cell_];  // a cell's end moves to its beginning
     const Eigen::Vector3f p_m = cloud.ends_W[i] - from_W;
     cells_[place] = cell;
     indices_[place] = i;
@@ -96,6 +86,31 @@ void DirectionGrid::Fill(const LabelledCloud& cloud, const DirectionCells& cells
     z_m_[place] = p_m.z();
     ranges_m_[place] = std::sqrt(p_m.x() * p_m.x() + p_m.y() * p_m.y() + p_m.z() * p_m.z());
   }
+  for (std::size_t place = entries.size(); place-- > 0;) {
+    const bool as_next = place + 1 < entries.size() && labels_[place] == labels_[place + 1];
+    alike_until_[place] = as_next ? alike_until_[place + 1] : static_cast<std::uint32_t>(place) + 1;
+  }
+}
+
+// Sets begin_ to the places after each cell's points, for the cells with points and those about
+// them.
+void DirectionGrid::CountCells(const std::vector<DirectionEntry>& entries) {
+  begin_.clear();
+  if (entries.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(entries, {}, &DirectionEntry::cell);
+  first_cell_ = RowsAbout(lowest.cell).front();
+  begin_.resize(RowsAbout(highest.cell).back() + 4 - first_cell_);
+  for (const DirectionEntry& entry : entries) ++begin_[entry.cell - first_cell_];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+}
+
+std::array<DirectionGrid::Run, 3> DirectionGrid::RunsAbout(std::size_t place) const {
+  std::array<Run, 3> runs;
+  for (std::size_t row = 0; row < runs.size(); ++row) {
+    const std::uint32_t first = RowsAbout(cells_[place])[row] - first_cell_;
+    runs[row] = {begin_[first], begin_[first + 3]};
+  }
+  return runs;
 }
 
 bool DirectionGrid::IsSparse() const {
@@ -103,9 +118,7 @@ bool DirectionGrid::IsSparse() const {
   const std::size_t step = 1 + size() / kAsked;
   std::size_t asked = 0, found = 0;
   for (std::size_t place = 0; place < size(); place += step) {
-    for (const std::uint32_t first : RowsAbout(cells_[place])) {
-      found += begin_[first + 3] - begin_[first];
-    }
+    for (const auto& [begin, end] : RunsAbout(place)) found += end - begin;
     ++asked;
   }
   return found < kFewest * asked;
@@ -128,8 +141,7 @@ DirectionGrid::Votes DirectionGrid::VotesOn(std::size_t place) const {
     close_others += is_close && !is_fellow;
   };
   std::uint32_t itself = 0;
-  for (const std::uint32_t first : RowsAbout(cells_[place])) {
-    const std::size_t begin = begin_[first], end = begin_[first + 3];
+  for (const auto& [begin, end] : RunsAbout(place)) {
     const std::size_t step = StepOver(end - begin);
     if (step == 1) {  // most often, and many at a time
       for (std::size_t k = begin; k < end; ++k) look_at(k);
@@ -147,9 +159,11 @@ DirectionGrid::Votes DirectionGrid::VotesOn(std::size_t place) const {
 bool DirectionGrid::MayHaveOthers(std::size_t place) const {
   const float range_m = ranges_m_[place], apart_m = Apart_m(range_m);
   const ObjectId label = labels_[place];
-  return std::ranges::any_of(RowsAbout(cells_[place]), [&](std::uint32_t first) {
+  return std::ranges::any_of(RunsAbout(place), [&](const Run& run) {
+    if (run.begin == run.end) return false;
+    if (labels_[run.begin] == label && alike_until_[run.begin] >= run.end) return false;
     unsigned any = 0;  // many at a time
-    for (std::size_t k = begin_[first]; k < begin_[first + 3]; ++k) {
+    for (std::size_t k = run.begin; k < run.end; ++k) {
       const bool as_far = std::abs(ranges_m_[k] - range_m) <= apart_m;
       any |= static_cast<unsigned>(labels_[k] != label) & static_cast<unsigned>(as_far);
     }
@@ -159,8 +173,7 @@ bool DirectionGrid::MayHaveOthers(std::size_t place) const {
 
 bool DirectionGrid::HasFellow(std::size_t place) const {
   const float apart_m = Apart_m(ranges_m_[place]);
-  for (const std::uint32_t first : RowsAbout(cells_[place])) {
-    const std::size_t begin = begin_[first], end = begin_[first + 3];
+  for (const auto& [begin, end] : RunsAbout(place)) {
     const std::size_t step = StepOver(end - begin);
     for (std::size_t k = begin; k < end; k += step) {
       if (labels_[k] == labels_[place] && std::abs(ranges_m_[k] - ranges_m_[place]) <= apart_m &&

@@ -1,6 +1,8 @@
 // The points of a cloud by the direction in which they are seen.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +10,12 @@
 #include "scene/labelled_cloud.h"
 
 namespace clearway {
+
+// A point of a cloud in a cell.
+struct DirectionEntry {
+  std::uint32_t cell, index;
+  bool is_copy;  // in the rim of a face that the point is not on
+};
 
 // Which points of a cloud are neighbours as its sensor sees them: within about a degree, or within
 // up to four where rays are so far apart that else there would be hardly any; and as far away up to
@@ -37,15 +45,24 @@ class DirectionGrid {
 
  private:
   void Fill(const LabelledCloud& cloud, const DirectionCells& cells);
+  void CountCells(const std::vector<DirectionEntry>& entries);
+  // The places in each of the three rows of cells about a place's.
+  struct Run {
+    std::size_t begin, end;
+  };
+  std::array<Run, 3> RunsAbout(std::size_t place) const;
   // Whether points have so few others about them that votes mean nothing.
   bool IsSparse() const;
 
-  std::vector<std::uint32_t> begin_;  // of a cell's points; one more at the end
+  std::uint32_t first_cell_ = 0;
+  std::vector<std::uint32_t>
+      begin_;  // of a cell's points, from first_cell_ on; one more at the end
 
   // By place.
   std::vector<std::uint32_t> indices_, cells_;
   std::vector<char> is_copy_;
   std::vector<ObjectId> labels_;
+  std::vector<std::uint32_t> alike_until_;         // the next place with another label; or size()
   std::vector<float> x_m_, y_m_, z_m_, ranges_m_;  // from the sensor
 };
 

@@ -1,7 +1,6 @@
 #include "scene/dynamic_hits.h"
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <optional>
 #include <span>
@@ -37,8 +36,9 @@ std::uint64_t Ones(std::int32_t first, std::int32_t last) {
   return (std::uint64_t{2} << last) - (std::uint64_t{1} << first);
 }
 
-// How many bits are set among the voxels of the block from `min` to `max`, some of which are in it.
-int CountIn(BlockKey key, const BlockMask& mask, VoxelKey min, VoxelKey max) {
+// Counts down for each bit that is set among the voxels of the block from `min` to `max`, some of
+// which are in it; to 0 and no further.
+void CountDown(BlockKey key, const BlockMask& mask, VoxelKey min, VoxelKey max, int& left) {
   constexpr std::int32_t kLast = kBlockSize - 1;
   const auto [x, y, z] = VoxelAt(key, 0);
   const std::uint64_t row = Ones(std::max(min.x - x, 0), std::min(max.x - x, kLast));
@@ -46,11 +46,11 @@ int CountIn(BlockKey key, const BlockMask& mask, VoxelKey min, VoxelKey max) {
   for (int j = std::max(min.y - y, 0); j <= std::min(max.y - y, kLast); ++j) {
     layer |= row << kBlockSize * j;
   }
-  int count = 0;
   for (int k = std::max(min.z - z, 0); k <= std::min(max.z - z, kLast); ++k) {
-    count += std::popcount(mask.words[k] & layer);
+    for (std::uint64_t bits = mask.words[k] & layer; bits != 0; bits &= bits - 1) {
+      if (--left == 0) return;
+    }
   }
-  return count;
 }
 
 // Whether so many bits are set at most two voxels away along each axis, the voxel's own too.
@@ -62,16 +62,16 @@ bool AreAround(VoxelKey key, int fewest, MaskOf&& mask_of) {
   const VoxelKey max{key.x + kReach, key.y + kReach, key.z + kReach};
   const BlockKey first = BlockOf(min), last = BlockOf(max);
   const BlockKey own = BlockOf(key);  // first: most often that settles it
-  int count = 0;
-  const auto look_in = [&](BlockKey block) {
-    if (const BlockMask* mask = mask_of(block)) count += CountIn(block, *mask, min, max);
-    return count >= fewest;
+  int left = fewest;
+  const auto are_with = [&](BlockKey block) {
+    if (const BlockMask* mask = mask_of(block)) CountDown(block, *mask, min, max, left);
+    return left == 0;
   };
-  if (look_in(own)) return true;
+  if (are_with(own)) return true;
   for (BlockKey block = first; block.z <= last.z; ++block.z) {
     for (block.y = first.y; block.y <= last.y; ++block.y) {
       for (block.x = first.x; block.x <= last.x; ++block.x) {
-        if (block != own && look_in(block)) return true;
+        if (block != own && are_with(block)) return true;
       }
     }
   }

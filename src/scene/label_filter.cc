@@ -75,6 +75,31 @@ bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
 // How many points of an object lie in each cube of a coarse grid.
 using PointCounts = absl::flat_hash_map<VoxelKey, std::size_t>;
 
+VoxelKey CubeOf(const LabelledCloud& cloud, const VoxelGrid& cubes, std::uint32_t point) {
+  return cubes.KeyOf(cloud.ends_W[point].cast<double>());
+}
+
+PointCounts CountsOf(const LabelledCloud& cloud, const VoxelGrid& cubes,
+                     const std::vector<std::uint32_t>& points) {
+  PointCounts counts;
+  VoxelKey last;
+  std::size_t in_last = 0;  // points in a row are most often in one cube
+  const auto add = [&] {
+    if (in_last > 0) counts[last] += in_last;
+  };
+  for (const std::uint32_t i : points) {
+    const VoxelKey cube = CubeOf(cloud, cubes, i);
+    if (cube != last) {
+      add();
+      in_last = 0;
+    }
+    last = cube;
+    ++in_last;
+  }
+  add();
+  return counts;
+}
+
 struct Cluster {
   std::vector<VoxelKey> cubes;
   std::size_t points = 0;
@@ -106,20 +131,23 @@ std::size_t LeaveOutStray(const LabelledCloud& cloud, const VoxelGrid& cubes,
                           const Aabb& predicted_W, std::vector<std::uint32_t>& points) {
   constexpr std::size_t kFewest = 5;
   constexpr double kBeside_m = 0.2;
-  const auto cube_of = [&](std::uint32_t i) { return cubes.KeyOf(cloud.ends_W[i].cast<double>()); };
-  PointCounts counts;
-  for (const std::uint32_t i : points) ++counts[cube_of(i)];
+  PointCounts counts = CountsOf(cloud, cubes, points);
   absl::flat_hash_set<VoxelKey> kept;
+  std::size_t points_kept = 0;
   while (!counts.empty()) {
     const Cluster cluster = TakeCluster(counts.begin()->first, counts);
-    if (cluster.points >= kFewest) kept.insert(cluster.cubes.begin(), cluster.cubes.end());
+    if (cluster.points < kFewest) continue;
+    kept.insert(cluster.cubes.begin(), cluster.cubes.end());
+    points_kept += cluster.points;
   }
+  if (points_kept == points.size()) return 0;
   if (kept.empty()) {
     const Aabb near_W = predicted_W.Padded(kBeside_m);
     return std::erase_if(
         points, [&](std::uint32_t i) { return !near_W.Contains(cloud.ends_W[i].cast<double>()); });
   }
-  return std::erase_if(points, [&](std::uint32_t i) { return !kept.contains(cube_of(i)); });
+  return std::erase_if(points,
+                       [&](std::uint32_t i) { return !kept.contains(CubeOf(cloud, cubes, i)); });
 }
 
 }  // namespace

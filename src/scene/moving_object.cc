@@ -50,7 +50,10 @@ std::vector<StampedPose> FutureAfter(const std::vector<StampedPose>& future, Tim
 std::shared_ptr<const Solid> SolidOf(const VoxelMap& map_O,
                                      const std::optional<Completion>& completion) {
   std::vector<Eigen::Vector3d> points = HullCandidates(map_O);
-  if (completion && !points.empty()) AddUnseen(*completion, points);
+  if (completion && !points.empty()) {
+    AddUnseen(*completion, points);
+    KeepOutlines(points);
+  }
   Mesh hull = ConvexHullOf(points);
   for (Eigen::Vector3d& vertex : hull.vertices) vertex *= map_O.grid().resolution_m();
   return SolidWith(std::move(hull), std::nullopt);

@@ -12,7 +12,6 @@ namespace {
 
 // The points that are looked at lie apart: each tells as much as it does alone.
 constexpr RegistrationWeights kWeights = {.trust = 1, .least_step = 1e-4, .guess_sigmas = 5};
-constexpr int kCoarseBits = 3, kFineBits = 2;  // of the cells
 
 // Whether the point is one of a static surface that the map holds.
 bool IsStatic(const Frame& frame, std::size_t i, double reach_m, const SceneParams& params) {
@@ -90,8 +89,9 @@ class MapAround {
  public:
   MapAround(const VoxelMap& static_map_W, const Eigen::Vector3d& sensor_W)
       : T_W_M_{Eigen::Quaterniond::Identity(), sensor_W},
-        coarse_(static_map_W, kCoarseBits, sensor_W),
-        fine_(static_map_W, kFineBits, sensor_W) {}
+        moments_(static_map_W),
+        coarse_(moments_, SurfaceCells::Size::kBlock, sensor_W),
+        fine_(moments_, SurfaceCells::Size::kOctant, sensor_W) {}
 
   std::size_t CountNear(std::span<const Eigen::Vector3d> points_S, const Pose& T_W_S) {
     const Pose T_M_S = Inverse(T_W_M_) * T_W_S;
@@ -112,6 +112,7 @@ class MapAround {
 
  private:
   Pose T_W_M_;
+  BlockMoments moments_;
   SurfaceCells coarse_, fine_;
 };
 

@@ -18,28 +18,11 @@ std::array<Eigen::Vector3d, 3> Factors(const Eigen::Matrix3d& m) {
 
 }  // namespace
 
-void SurfaceCells::Sums::Add(double of_weight, const Eigen::Vector3d& p) {
-  count += 1;
-  weight += of_weight;
-  for (int i = 0; i < 3; ++i) {
-    first[i] += of_weight * p[i];
-    for (int j = 0; j < 3; ++j) second(i, j) += of_weight * p[i] * p[j];
-  }
-}
-
-void SurfaceCells::Sums::Add(const Sums& other) {
-  count += other.count;
-  weight += other.weight;
-  first += other.first;
-  second += other.second;
-}
-
-SurfaceCells::SurfaceCells(const VoxelMap& map, int bits, const Eigen::Vector3d& origin)
-    : map_(&map),
-      bits_(bits),
-      shift_(kBlockBits - bits),
-      voxel_m_(map.grid().resolution_m()),
-      per_m_(map.grid().voxels_per_m() / (1 << bits)),
+SurfaceCells::SurfaceCells(BlockMoments& moments, Size size, const Eigen::Vector3d& origin)
+    : moments_(&moments),
+      shift_(size == Size::kBlock ? 0 : 1),
+      voxel_m_(moments.grid().resolution_m()),
+      per_m_(moments.grid().voxels_per_m() / (kBlockSize >> shift_)),
       origin_(origin) {}
 
 const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_M) {
@@ -53,44 +36,20 @@ const SurfaceCells::Cell* SurfaceCells::At(const Eigen::Vector3d& p_M) {
   return entry->second ? &*entry->second : nullptr;
 }
 
-std::ptrdiff_t SurfaceCells::BeginOf(BlockKey block) {
-  Recent& recent = recent_[(block.x & 3) | (block.y & 3) << 2 | (block.z & 3) << 4];
-  if (recent.begin == kUnasked || recent.block != block) recent = {block, FindOrAdd(block)};
-  return recent.begin;
-}
-
-std::ptrdiff_t SurfaceCells::FindOrAdd(BlockKey block_key) {
-  const auto [entry, fresh] = begins_.try_emplace(block_key, kNone);
-  if (!fresh) return entry->second;
-  const VoxelBlock* block = map_->blocks().Find(block_key);
-  if (block == nullptr || !block->occupied.Any()) return kNone;
-  entry->second = static_cast<std::ptrdiff_t>(sums_.size());
-  sums_.resize(sums_.size() + (std::size_t{1} << 3 * shift_));
-  Sums* const of_block = &sums_[entry->second];
-  block->occupied.ForEach([&](int index) {
-    const int x = index & 7, y = index >> 3 & 7, z = index >> 6;
-    const int cell = x >> bits_ | y >> bits_ << shift_ | z >> bits_ << 2 * shift_;
-    // Occupied may be what is as likely free.
-    const double weight = std::max<double>(block->log_odds[index], 1);
-    of_block[cell].Add(weight, map_->grid().CenterOf(VoxelAt(block_key, index)));
-  });
-  return entry->second;
-}
-
 std::optional<SurfaceCells::Cell> SurfaceCells::CellAround(BlockKey key) {
   constexpr double kFewest = 3;  // voxels that make a distribution
-  const int across = (1 << shift_) - 1;
-  Sums around;
+  Moments around;
   BlockKey block;  // most often that of the cell before, too
-  std::ptrdiff_t begin = kNone;
+  const BlockMoments::OfBlock* of_block = nullptr;
   for (int i = 0; i < 27; ++i) {
     const BlockKey at{key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1};
     const BlockKey of_cell{at.x >> shift_, at.y >> shift_, at.z >> shift_};
-    if (i == 0 || of_cell != block) begin = BeginOf(of_cell);
+    if (i == 0 || of_cell != block) of_block = moments_->Find(of_cell);
     block = of_cell;
-    if (begin == kNone) continue;
-    const int cell = (at.x & across) | (at.y & across) << shift_ | (at.z & across) << 2 * shift_;
-    if (sums_[begin + cell].count > 0) around.Add(sums_[begin + cell]);
+    if (of_block == nullptr) continue;
+    const int octant = (at.x & 1) | (at.y & 1) << 1 | (at.z & 1) << 2;
+    const Moments& cell = shift_ == 0 ? of_block->whole : of_block->octants[octant];
+    if (cell.count > 0) around.Add(cell);
   }
   if (around.count < kFewest) return std::nullopt;
   return CellOf(around);
@@ -99,15 +58,15 @@ std::optional<SurfaceCells::Cell> SurfaceCells::CellAround(BlockKey key) {
 // The information of the distribution, less that of a wider one: for a thin surface that is nearly
 // all across it, and nearly none along it. Where a voxel lies, nobody knows better than by half of
 // its edge.
-SurfaceCells::Cell SurfaceCells::CellOf(const Sums& sums) const {
+SurfaceCells::Cell SurfaceCells::CellOf(const Moments& around) const {
   constexpr double kOwnVariance = 0.25, kWider = 2;  // in squares of voxels
-  const Eigen::Vector3d mean = sums.first / sums.weight;
+  const Eigen::Vector3d mean = around.first / around.weight;
   Cell cell;
   cell.mean_M = mean - origin_;
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      covariance(i, j) = sums.second(i, j) / sums.weight - mean[i] * mean[j];
+      covariance(i, j) = around.second(i, j) / around.weight - mean[i] * mean[j];
     }
     covariance(i, i) += kOwnVariance * voxel_m_ * voxel_m_;
   }

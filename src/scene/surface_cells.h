@@ -3,12 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "absl/container/flat_hash_map.h"
-#include "clearway/map/voxel_map.h"
+#include "scene/block_moments.h"
 
 namespace clearway {
 
@@ -31,44 +29,22 @@ class SurfaceCells {
     }
   };
 
-  // Edges of 2^bits voxels, of which a block is a multiple. `origin` is M's in the map's frame. The
-  // map must outlive this and stay as it is.
-  SurfaceCells(const VoxelMap& map, int bits, const Eigen::Vector3d& origin);
+  enum class Size { kOctant, kBlock };  // 4 voxels across, or 8
+
+  // `origin` is M's in the map's frame. The moments must outlive this.
+  SurfaceCells(BlockMoments& moments, Size size, const Eigen::Vector3d& origin);
 
   // The one that holds p; null where hardly anything is near. Valid until the next call.
   const Cell* At(const Eigen::Vector3d& p_M);
 
  private:
-  // Weighted by log-odds.
-  struct Sums {
-    double count = 0, weight = 0;
-    Eigen::Vector3d first = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-
-    void Add(double of_weight, const Eigen::Vector3d& p);
-    void Add(const Sums& other);
-  };
-  // Where in sums_ those of the block's cells begin; kNone if nothing is occupied in it.
-  static constexpr std::ptrdiff_t kNone = -1;
-  std::ptrdiff_t BeginOf(BlockKey block);
-  std::ptrdiff_t FindOrAdd(BlockKey block);  // what BeginOf does not remember
   std::optional<Cell> CellAround(BlockKey key);
-  Cell CellOf(const Sums& sums) const;
+  Cell CellOf(const Moments& around) const;
 
-  const VoxelMap* map_;
-  int bits_, shift_;  // of voxels to cells; of cells to blocks
+  BlockMoments* moments_;
+  int shift_;  // of cells to blocks
   double voxel_m_, per_m_;
   Eigen::Vector3d origin_;
-  std::vector<Sums> sums_;                                // block by block
-  absl::flat_hash_map<BlockKey, std::ptrdiff_t> begins_;  // in sums_
-  // Of those asked for last, by the lowest bits of their keys: cells near each other ask for the
-  // same ones.
-  struct Recent {
-    BlockKey block;
-    std::ptrdiff_t begin = kUnasked;
-  };
-  static constexpr std::ptrdiff_t kUnasked = -2;
-  std::array<Recent, 64> recent_;
   absl::flat_hash_map<BlockKey, std::optional<Cell>> seen_;  // those that somebody asked for
 };
 

@@ -8,7 +8,6 @@ namespace {
 
 constexpr RegistrationWeights kWeights = {.trust = 0.2, .least_step = 5e-3};
 constexpr std::size_t kMostPoints = 128;
-constexpr int kCoarseBits = 3, kFineBits = 2;  // of the cells
 
 std::vector<Eigen::Vector3d> AFew(std::span<const Eigen::Vector3d> points_W) {
   const std::size_t step = std::max<std::size_t>(1, (points_W.size() - 1) / kMostPoints + 1);
@@ -21,8 +20,9 @@ std::vector<Eigen::Vector3d> AFew(std::span<const Eigen::Vector3d> points_W) {
 
 Pose RegisterView(const VoxelMap& map_O, std::span<const Eigen::Vector3d> points_W,
                   std::span<const PoseGuess> guesses) {
-  SurfaceCells coarse(map_O, kCoarseBits, Eigen::Vector3d::Zero());
-  SurfaceCells fine(map_O, kFineBits, Eigen::Vector3d::Zero());
+  BlockMoments moments(map_O);
+  SurfaceCells coarse(moments, SurfaceCells::Size::kBlock, Eigen::Vector3d::Zero());
+  SurfaceCells fine(moments, SurfaceCells::Size::kOctant, Eigen::Vector3d::Zero());
   const RegistrationStage stages[] = {{coarse, 3, 6}, {coarse, 1.5, 4}, {fine, 2, 8}};
   const std::vector<Eigen::Vector3d> few_W = AFew(points_W);
   return Registration(few_W, guesses, kWeights).Register(stages);

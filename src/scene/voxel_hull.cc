@@ -1,7 +1,6 @@
 #include "scene/voxel_hull.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
 #include <vector>
@@ -42,53 +41,76 @@ std::vector<Row> OccupiedRows(const VoxelMap& map) {
   return rows;
 }
 
-struct Corner {
-  std::int64_t y, x;
-};
-
-// Puts a corner at the end of a chain that bends to one side only: at the least x (sign 1) or the
-// greatest (-1) of each y, by ascending y.
-void Extend(std::vector<Corner>& chain, Corner next, std::int64_t sign) {
-  if (!chain.empty() && chain.back().y == next.y) {
-    if (sign * next.x >= sign * chain.back().x) return;
+// Puts a point of a plane at the end of a chain that bends to one side only: at the least x (sign
+// 1) or the greatest (-1) of each y, by ascending y.
+void Extend(std::vector<Eigen::Vector3d>& chain, const Eigen::Vector3d& next, int sign) {
+  if (!chain.empty() && chain.back().y() == next.y()) {
+    if (sign * next.x() >= sign * chain.back().x()) return;
     chain.pop_back();
   }
   while (chain.size() >= 2) {
-    const Corner& a = chain[chain.size() - 2];
-    const Corner& b = chain.back();
-    const std::int64_t bend = (b.y - a.y) * (next.x - a.x) - (b.x - a.x) * (next.y - a.y);
+    const Eigen::Vector3d& a = chain[chain.size() - 2];
+    const Eigen::Vector3d& b = chain.back();
+    const double bend = (b.y() - a.y()) * (next.x() - a.x()) - (b.x() - a.x()) * (next.y() - a.y());
     if (sign * bend > 0) break;
     chain.pop_back();
   }
   chain.push_back(next);
 }
 
+// The outline of points in a plane that come by ascending y.
+class Outline {
+ public:
+  void Add(const Eigen::Vector3d& p) {
+    Extend(least_, p, 1);
+    Extend(greatest_, p, -1);
+  }
+  // Calls visit(corner) for each, and begins anew.
+  template <class Visit>
+  void Take(Visit&& visit) {
+    for (const Eigen::Vector3d& p : least_) visit(p);
+    for (const Eigen::Vector3d& p : greatest_) {
+      if (p != least_.front() && p != least_.back()) visit(p);  // where the chains meet
+    }
+    least_.clear();
+    greatest_.clear();
+  }
+
+ private:
+  std::vector<Eigen::Vector3d> least_, greatest_;
+};
+
 }  // namespace
 
-std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
-  std::vector<std::array<std::int64_t, 3>> corners;
-  const std::vector<Row> rows = OccupiedRows(map);
-  std::vector<Corner> least, greatest;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
-    for (const std::int64_t y : {row.y, row.y + 1}) {
-      Extend(least, {y, row.first_x}, 1);
-      Extend(greatest, {y, row.last_x + 1}, -1);
-    }
-    if (i + 1 < rows.size() && rows[i + 1].z == row.z) continue;
-    for (std::vector<Corner>* chain : {&least, &greatest}) {
-      for (const auto& [y, x] : *chain) {
-        for (const std::int64_t z : {row.z, row.z + 1}) corners.push_back({x, y, z});
-      }
-      chain->clear();
-    }
+void KeepOutlines(std::vector<Eigen::Vector3d>& points) {
+  std::ranges::sort(points, {}, [](const auto& p) { return std::pair(p.z(), p.y()); });
+  Outline outline;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    outline.Add(points[i]);
+    if (i + 1 < points.size() && points[i + 1].z() == points[i].z()) continue;
+    outline.Take([&](const Eigen::Vector3d& p) { points[kept++] = p; });
   }
-  std::ranges::sort(corners);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(corners.size());
-  for (const auto& [x, y, z] : corners) points.emplace_back(x, y, z);
-  return points;
+  points.resize(kept);
+}
+
+std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
+  std::vector<Eigen::Vector3d> corners;
+  const std::vector<Row> rows = OccupiedRows(map);
+  Outline of_layer;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [y, z, first_x, last_x] = rows[i];
+    for (const int beyond : {0, 1}) {
+      for (const int x : {first_x, last_x + 1}) of_layer.Add(Eigen::Vector3d(x, y + beyond, z));
+    }
+    if (i + 1 < rows.size() && rows[i + 1].z == z) continue;
+    of_layer.Take([&](const Eigen::Vector3d& p) {
+      corners.push_back(p);
+      corners.push_back(p + Eigen::Vector3d::UnitZ());
+    });
+  }
+  KeepOutlines(corners);
+  return corners;
 }
 
 }  // namespace clearway

@@ -8,8 +8,12 @@
 
 namespace clearway {
 
-// The occupied voxels' corners that a convex hull can have: of each layer of voxels, those of its
-// outline. In voxels: whole numbers, so that the hull is computed on exact ones.
+// The occupied voxels' corners that a convex hull can have: of each level, those of its outline. In
+// voxels: whole numbers, so that the hull is computed on exact ones.
 std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map);
+
+// Keeps, of the points of each z, the corners of their outline: no others are corners of a convex
+// hull. They are sorted by z.
+void KeepOutlines(std::vector<Eigen::Vector3d>& points);
 
 }  // namespace clearway

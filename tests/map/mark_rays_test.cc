@@ -15,6 +15,16 @@ using testing_support::Random;
 
 constexpr double kResolution_m = 0.05;
 
+std::set<VoxelKey> TakeAll(BitWindow& window) {
+  std::vector<BitWindow::Block> blocks;
+  for (std::size_t row = 0; row < window.rows(); ++row) window.TakeRow(row, blocks);
+  std::set<VoxelKey> voxels;
+  for (const BitWindow::Block& block : blocks) {
+    block.mask.ForEach([&](int i) { voxels.insert(VoxelAt(block.key, i)); });
+  }
+  return voxels;
+}
+
 std::set<VoxelKey> Marked(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
   BitWindow window;
   window.Cover({-16, -16, -16}, {15, 15, 15});  // 6.4 m to each side
@@ -23,13 +33,17 @@ std::set<VoxelKey> Marked(const VoxelGrid& grid, const std::vector<RaySegment>& 
   rounds.Finish();
   const auto& origins = rounds.BoxesAround().origins;
   MarkRays(grid, rounds, origins.min() == origins.max(), window);
-  std::vector<BitWindow::Block> blocks;
-  for (std::size_t row = 0; row < window.rows(); ++row) window.TakeRow(row, blocks);
-  std::set<VoxelKey> voxels;
-  for (const BitWindow::Block& block : blocks) {
-    block.mask.ForEach([&](int i) { voxels.insert(VoxelAt(block.key, i)); });
-  }
-  return voxels;
+  return TakeAll(window);
+}
+
+std::set<VoxelKey> MarkedShort(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
+  BitWindow window;
+  window.Cover({-16, -16, -16}, {15, 15, 15});
+  RayEights eights;
+  for (const RaySegment& ray : rays) eights.Add(ray);
+  eights.Finish();
+  MarkShortRays(grid, eights.eights(), window);
+  return TakeAll(window);
 }
 
 std::set<VoxelKey> Walked(const VoxelGrid& grid, const std::vector<RaySegment>& rays) {
@@ -114,6 +128,22 @@ TEST(MarkRays, ToTheEdgesOfTheSector) {
     }
   }
   EXPECT_EQ(Marked(grid, rays), Walked(grid, rays));
+}
+
+// More of them than are walked at once, the last eight incomplete, and some that go nowhere.
+TEST(MarkRays, ShortRaysMarkWhatEachOfThemPasses) {
+  const VoxelGrid grid(kResolution_m);
+  Random random(7);
+  EXPECT_TRUE(MarkedShort(grid, {}).empty());
+  for (const int count : {1, 8, 9, 5000}) {
+    std::vector<RaySegment> rays;
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector3f origin = random.Vector(5).cast<float>();
+      const float length_m = 0.1f * static_cast<float>(random.Integer(0, 10));
+      rays.push_back({origin, origin + length_m * random.Vector(1).cast<float>()});
+    }
+    EXPECT_EQ(MarkedShort(grid, rays), Walked(grid, rays)) << count;
+  }
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(RayRounds, BoxesAreAroundAllRays) {
       ends.extend(ray.end);
     }
     if (count % (RayRounds::kInARow * kLanes) != 0) ends.extend(rays[count / 104 * 104].origin);
-    const RayRounds::Boxes boxes = dut.BoxesAround();
+    const RayBoxes boxes = dut.BoxesAround();
     EXPECT_EQ(boxes.origins.min(), origins.min());
     EXPECT_EQ(boxes.origins.max(), origins.max());
     EXPECT_EQ(boxes.ends.min(), ends.min());

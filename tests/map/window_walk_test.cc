@@ -105,7 +105,8 @@ TEST_P(WindowWalkTest, RaysAlongAxesAndThroughBorders) {
 
 INSTANTIATE_TEST_SUITE_P(Kernels, WindowWalkTest,
                          testing::Values(Case{"Portable", WalkWindowPortable, [] { return true; }},
-                                         Case{"Avx512", WalkWindowAvx512, HasAvx512}),
+                                         Case{"Avx512", WalkWindowAvx512, HasAvx512},
+                                         Case{"AbreastAvx512", WalkWindowAbreastAvx512, HasAvx512}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
