@@ -53,9 +53,9 @@ class PassedVoxels {
 // Implementation.
 
 inline void PassedVoxels::Sector::Add(const RaySegment& ray) {
-  constexpr int kShortest = -3;                                     // power of two, in metres
-  const Eigen::Vector3f way_m = (ray.end - ray.origin).cwiseAbs();  // which is as many steps
-  const auto power = static_cast<int>(std::bit_cast<std::uint32_t>(way_m.sum()) >> 23) - 127;
+  constexpr int kShortest = -3;  // the power of two, in metres
+  const float steps_m = (ray.end - ray.origin).cwiseAbs().sum();
+  const auto power = static_cast<int>(std::bit_cast<std::uint32_t>(steps_m) >> 23) - 127;
   rays[std::clamp(power - kShortest, 0, kLengths - 1)].Add(ray);
 }
 

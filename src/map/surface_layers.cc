@@ -37,7 +37,8 @@ unsigned NeededFor(const BlockMask& voxels) {
 // Masks of the occupied voxels in those blocks; of one that does not exist, none.
 using OccupiedAround = std::array<const BlockMask*, kBlocks>;
 
-// A few blocks, and what of their neighbours tells something: their memory is waited for at once.
+// A few blocks, and those of their neighbours that tell something: their memory is waited for at
+// once.
 class Neighbourhoods {
  public:
   static constexpr std::size_t kMost = 32;
@@ -112,16 +113,15 @@ SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, Thre
     places.push_back(place);
   }
   blocks_.resize(places.size());
-  pool.ParallelChunks(places.size(), Neighbourhoods::kMost,
-                      [&](int, std::size_t begin, std::size_t end) {
-                        Neighbourhoods around;
-                        for (std::size_t i = begin; i < end; ++i) {
-                          around.Add(update.keys()[places[i]], update.block(places[i]).end);
-                        }
-                        around.FindIn(map);
-                        for (std::size_t i = begin; i < end; ++i)
-                          FindBeside(around.Occupied(i - begin), blocks_[i]);
-                      });
+  const auto find = [&](int, std::size_t begin, std::size_t end) {
+    Neighbourhoods around;
+    for (std::size_t i = begin; i < end; ++i) {
+      around.Add(update.keys()[places[i]], update.block(places[i]).end);
+    }
+    around.FindIn(map);
+    for (std::size_t i = begin; i < end; ++i) FindBeside(around.Occupied(i - begin), blocks_[i]);
+  };
+  pool.ParallelChunks(places.size(), Neighbourhoods::kMost, find);
 }
 
 }  // namespace clearway

@@ -31,7 +31,8 @@ class SurfaceLayers {
   }
 
  private:
-  // Of a block's layers along z, the voxels that have an occupied neighbour along x, y and z.
+  // Of a block's layers along z, the voxels that have an occupied neighbour along x, y and z; true
+  // of those that rays end in.
   using Beside = std::array<std::array<std::uint64_t, 3>, kBlockSize>;
 
   std::vector<std::uint32_t> blocks_by_place_;
