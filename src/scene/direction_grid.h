@@ -19,10 +19,10 @@ struct DirectionEntry {
 
 // Which points of a cloud are neighbours as its sensor sees them: within about a degree, or within
 // up to four where rays are so far apart that else there would be hardly any; and as far away up to
-// 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points that near to
-// an object's, but none that has gone through to the end of its ray's
-// range. They have places from 0 to size() - 1, by direction. Where points are dense, some of them
-// are taken for all. Const methods may run on any number of threads.
+// 3 % and 0.2 m. Of several sensors, as the first one would see them. Knows the points that are
+// near an object's, but none that has gone through to the end of its ray's range. They have places
+// from 0 to size() - 1, by direction. Where points are dense, some of them are taken for all. Const
+// methods may run on any number of threads.
 class DirectionGrid {
  public:
   explicit DirectionGrid(const LabelledCloud& cloud);
@@ -54,9 +54,8 @@ class DirectionGrid {
   // Whether points have so few others about them that votes mean nothing.
   bool IsSparse() const;
 
-  std::uint32_t first_cell_ = 0;
-  std::vector<std::uint32_t>
-      begin_;  // of a cell's points, from first_cell_ on; one more at the end
+  std::uint32_t first_cell_ = 0;      // that begin_ knows of
+  std::vector<std::uint32_t> begin_;  // of a cell's points; one more at the end
 
   // By place.
   std::vector<std::uint32_t> indices_, cells_;

@@ -83,20 +83,13 @@ PointCounts CountsOf(const LabelledCloud& cloud, const VoxelGrid& cubes,
                      const std::vector<std::uint32_t>& points) {
   PointCounts counts;
   VoxelKey last;
-  std::size_t in_last = 0;  // points in a row are most often in one cube
-  const auto add = [&] {
-    if (in_last > 0) counts[last] += in_last;
-  };
+  std::size_t* in_last = nullptr;  // points in a row are most often in one cube
   for (const std::uint32_t i : points) {
     const VoxelKey cube = CubeOf(cloud, cubes, i);
-    if (cube != last) {
-      add();
-      in_last = 0;
-    }
+    if (in_last == nullptr || cube != last) in_last = &counts[cube];
     last = cube;
-    ++in_last;
+    ++*in_last;
   }
-  add();
   return counts;
 }
 
