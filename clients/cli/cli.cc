@@ -34,11 +34,18 @@ void AddAllCommands(Cli& cli) {
   AddBench(cli);
 }
 
+// The exit code of what went well, unless its output did not get out.
+int Done(const Terminal& terminal) {
+  if (terminal.out.flush()) return kExitOk;
+  terminal.err << "clearway: the output cannot be written (disk full?)\n";
+  return kExitFailed;
+}
+
 // Help and version go to `out`, complaints to `err`.
 int Explain(const CLI::App& app, const CLI::ParseError& error, const Terminal& terminal) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     app.exit(error, terminal.out, terminal.err);
-    return kExitOk;
+    return Done(terminal);
   }
   std::string command = "clearway";
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
@@ -95,8 +102,8 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal) {
     return kExitUsage;
   }
   const absl::Status status = cli.action();
+  if (status.ok()) return Done(terminal);
   terminal.out.flush();
-  if (status.ok()) return kExitOk;
   terminal.err << "clearway: " << MessageFor(status) << "\n";
   return IsUsageError(status) ? kExitUsage : kExitFailed;
 }

@@ -26,7 +26,8 @@ constexpr char kExamples[] =
     "  clearway evaluate sim:street --unlabelled 1,2 --dynamic-life 1\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json\n"
-    "  clearway evaluate kitti0000_fov --poses oxts --sensor-error 1 --sensor-error-deg 1";
+    "  clearway evaluate kitti0000_fov --poses oxts --sensor-error 1 --sensor-error-deg 1\n"
+    "  clearway evaluate kitti0000_fov --motion track --object-voxel 0.05 --html drive.html";
 
 struct Flags {
   std::string spec;

@@ -1,16 +1,20 @@
 #include "cli/evaluation_html.h"
 
+#include <stdlib.h>  // mkdtemp
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "clearway/report/object_sheet.h"
 #include "clearway/report/top_view.h"
 #include "cli/svg_plot.h"
@@ -62,20 +66,51 @@ Plot PlotOfGrowth(const TrueSource& source, const Evaluation& found) {
   return plot;
 }
 
+// A folder of this process's own, gone with all that is in it at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code error;
+    std::string name = (std::filesystem::temp_directory_path(error) / "clearway-XXXXXX").string();
+    if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+  }
+  // Empty if there is none.
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 // An <img> of what `write` makes.
-absl::StatusOr<std::string> ImageOf(const std::string& png_file,
-                                    const std::function<absl::Status(const std::string&)>& write) {
+absl::StatusOr<std::string> ImageOf(const std::function<absl::Status(const std::string&)>& write) {
+  const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    return absl::UnavailableError("no temporary folder can be made for pictures; is TMPDIR right?");
+  }
+  const std::string png_file = folder.path() / "picture.png";
   if (absl::Status status = write(png_file); !status.ok()) return status;
   std::ifstream in(png_file, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  std::error_code ignored;
-  std::filesystem::remove(png_file, ignored);
   return absl::StrCat("<img style='max-width: 100%' src='data:image/png;base64,",
                       absl::Base64Escape(bytes), "'>\n");
 }
 
-absl::StatusOr<std::string> PicturesOf(const std::string& html_file, const TrueSource& source,
-                                       const Evaluation& found) {
+// What it is called in the scene: one that is out of sight is where it is thought to be.
+std::string NameNow(const TrueSource& source, const SceneSnapshot& scene,
+                    const MovingObject& object) {
+  constexpr Duration kSeen = std::chrono::seconds(1);
+  const Duration unseen = scene.stamp - object.last_seen;
+  if (unseen <= kSeen) return LabelOf(source, object.id);
+  return absl::StrFormat("%s, unseen for %.1f s", LabelOf(source, object.id), ToSeconds(unseen));
+}
+
+absl::StatusOr<std::string> PicturesOf(const TrueSource& source, const Evaluation& found) {
   SceneSnapshot with_all_objects = *found.scene;
   with_all_objects.objects.clear();
   ObjectSheetOptions sheet;
@@ -84,18 +119,16 @@ absl::StatusOr<std::string> PicturesOf(const std::string& html_file, const TrueS
     with_all_objects.objects.push_back(object);
     sheet.names[id] = LabelOf(source, id);
   }
-  const auto objects = ImageOf(html_file + ".png", [&](const std::string& file) {
-    return WriteObjectSheet(with_all_objects, sheet, file);
-  });
+  const auto objects = ImageOf(
+      [&](const std::string& file) { return WriteObjectSheet(with_all_objects, sheet, file); });
   if (!objects.ok()) return objects.status();
   TopViewOptions view;
   view.title = "The scene after the last frame";
   for (const auto& object : found.scene->objects) {
-    view.names[object->id] = LabelOf(source, object->id);
+    view.names[object->id] = NameNow(source, *found.scene, *object);
   }
-  const auto scene = ImageOf(html_file + ".png", [&](const std::string& file) {
-    return WriteTopView(*found.scene, view, file);
-  });
+  const auto scene =
+      ImageOf([&](const std::string& file) { return WriteTopView(*found.scene, view, file); });
   if (!scene.ok()) return scene.status();
   return absl::StrCat(*objects, *scene);
 }
@@ -104,11 +137,12 @@ absl::StatusOr<std::string> PicturesOf(const std::string& html_file, const TrueS
 
 absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
                        const Evaluation& found) {
-  const auto pictures = PicturesOf(html_file, source, found);
+  const auto pictures = PicturesOf(source, found);
   if (!pictures.ok()) return pictures.status();
   std::ostringstream tables;
   PrintText(tables, source, found);
-  std::ofstream out(html_file, std::ios::binary);
+  const std::string partial = html_file + ".partial";
+  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
   out << "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: "
       << Escaped(source.frames.description)
       << "</title>\n<body style='font-family: sans-serif; max-width: 1200px; margin: auto'>\n"
@@ -116,8 +150,12 @@ absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
       << SvgOf(PlotOfPredictions(source, found)) << SvgOf(PlotOfBounds(found))
       << SvgOf(PlotOfGrowth(source, found)) << "<pre>" << Escaped(tables.str()) << "</pre>\n"
       << *pictures << "</body></html>\n";
-  out.flush();
-  if (out) return absl::OkStatus();
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(partial, html_file, error);
+  if (out && !error) return absl::OkStatus();
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);
   return absl::InternalError(absl::StrCat(html_file, ": cannot be written"));
 }
 

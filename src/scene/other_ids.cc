@@ -56,15 +56,48 @@ struct Match {
   Pose T_Y_L;  // of their frames
 };
 
-std::vector<Match> MatchesOf(const MovingObject& young, const ObjectMap& objects, Time stamp,
+// With those of some lost objects that were lost before `young` was first seen.
+std::vector<Match> MatchesOf(const MovingObject& young, const ObjectMap& lost_ones,
                              const SceneParams& params) {
   std::vector<Match> matches;
-  if (!IsToBeJoined(young, stamp)) return {};
-  for (const auto& [id, lost] : objects) {
+  if (young.given()) return matches;
+  for (const auto& [id, lost] : lost_ones) {
     if (lost->given() || lost->t_k() >= young.first_seen) continue;
     const std::optional<Pose> T_Y_L = SeenAgain(*lost, young, params);
     if (T_Y_L) matches.push_back({id, young.id, *T_Y_L});
   }
+  return matches;
+}
+
+// Those of the objects that are to be joined now, and of all others that could be one of the same
+// lost objects, however long they are known: what one of them may be no other one is.
+struct Matches {
+  std::vector<Match> due, others;
+
+  template <class Predicate>
+  std::ptrdiff_t CountIf(Predicate&& predicate) const {
+    return std::ranges::count_if(due, predicate) + std::ranges::count_if(others, predicate);
+  }
+};
+
+Matches FindMatches(const ObjectMap& objects, Time stamp, const SceneParams& params) {
+  const std::set<ObjectId> in_groups = IdsInGroups(objects);
+  ObjectMap alone;
+  for (const auto& entry : objects) {
+    if (!in_groups.contains(entry.first)) alone.insert(entry);
+  }
+  Matches matches;
+  const auto add = [&](bool due, const ObjectMap& lost_ones, std::vector<Match>& to) {
+    for (const auto& [id, object] : alone) {
+      if (IsToBeJoined(*object, stamp) != due) continue;
+      const std::vector<Match> of_object = MatchesOf(*object, lost_ones, params);
+      to.insert(to.end(), of_object.begin(), of_object.end());
+    }
+  };
+  add(true, alone, matches.due);
+  ObjectMap wanted;
+  for (const Match& match : matches.due) wanted[match.lost] = alone.at(match.lost);
+  add(false, wanted, matches.others);
   return matches;
 }
 
@@ -106,23 +139,16 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clu
 
 std::size_t JoinSeenAgain(ObjectMap& objects, Time stamp, const SceneParams& params,
                           ThreadPool& pool) {
-  const std::set<ObjectId> in_groups = IdsInGroups(objects);
-  std::vector<Match> matches;
-  for (const auto& [id, object] : objects) {
-    if (in_groups.contains(id)) continue;
-    const std::vector<Match> of_object = MatchesOf(*object, objects, stamp, params);
-    matches.insert(matches.end(), of_object.begin(), of_object.end());
-  }
-  std::erase_if(matches, [&](const Match& match) { return in_groups.contains(match.lost); });
+  const Matches matches = FindMatches(objects, stamp, params);
   std::size_t joined = 0;
-  for (const Match& match : matches) {
-    const auto same = std::count_if(matches.begin(), matches.end(), [&](const Match& other) {
+  for (const Match& match : matches.due) {
+    const bool unique = matches.CountIf([&](const Match& other) {
       return other.lost == match.lost || other.young == match.young;
-    });
+    }) == 1;
     // In a chain of three the first two go first.
     const bool lost_is_matched =
-        std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
-    if (same > 1 || lost_is_matched) continue;
+        matches.CountIf([&](const Match& other) { return other.young == match.lost; }) > 0;
+    if (!unique || lost_is_matched) continue;
     const MovingObject& lost = *objects.at(match.lost);
     const MovingObject& young = *objects.at(match.young);
     objects[match.lost] =

@@ -1,6 +1,7 @@
 // The tool as a program, without a server: help, usage errors, files.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "clients/subprocess.h"
@@ -87,6 +88,16 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
     EXPECT_THAT(dut.err, StartsWith("clearway: "));
     EXPECT_THAT(dut.err, HasSubstr(named));
     EXPECT_THAT(dut.out, IsEmpty());
+  }
+}
+
+TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  for (const std::string flags : {"--version", "--help", "info sim:small --json"}) {
+    const Finished dut =
+        RunProgram({"/bin/sh", "-c", std::string(CLEARWAY_BINARY) + " " + flags + " > /dev/full"});
+    EXPECT_EQ(dut.exit_code, 1) << flags;
+    EXPECT_THAT(dut.err, HasSubstr("the output cannot be written")) << flags;
   }
 }
 

@@ -151,7 +151,8 @@ TEST(Evaluate, MapsOfMendedSensorPoses) {
 
 TEST(Evaluate, OnAPageThatNeedsNothingElse) {
   const TemporaryFolder folder;
-  const std::string page = folder / "small.html";
+  const std::string page = folder / "small.html", other = folder / "small.html.png";
+  std::ofstream(other) << "somebody's own";
   const Finished dut =
       Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
@@ -162,7 +163,8 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
   const std::string image = "src='data:image/png;base64,";
   EXPECT_NE(html.find(image, html.find(image) + 1), std::string::npos);  // two
   EXPECT_EQ(html.find("src='http"), std::string::npos);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(BytesOf(other), "somebody's own");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
   const Finished nowhere =
       Clearway({"evaluate", "sim:small", "--frames", "2", "--html", folder / "missing/small.html"});
   EXPECT_EQ(nowhere.exit_code, 1);

@@ -163,6 +163,25 @@ TEST_F(OtherIds, AreNotTakenFromOneOfTwoThatItCouldBe) {
   EXPECT_EQ(reidentified_, 0u);
 }
 
+// 9 could be 5 or 6, and 10 could be 5; that 9 is no longer young does not make 10 be 5.
+TEST_F(OtherIds, AreNotTakenWhileAnotherCouldBeTheLostOne) {
+  for (double t = 0; t < 2; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    See(frame, 5, t, t == 0);
+    See(frame, 6, t, t == 0, 2);
+    Apply(frame);
+  }
+  for (int k = 35; k < 70; ++k) {
+    const double t = k * kPeriod_s;
+    Frame frame = FrameAt(t);
+    See(frame, 9, t, k == 35, 1);
+    if (k >= 38) See(frame, 10, t, k == 38, -1);
+    Apply(frame);
+  }
+  EXPECT_EQ(scene().objects.size(), 4u);
+  EXPECT_EQ(reidentified_, 0u);
+}
+
 // A source that tells where an unseen object is has not lost it.
 TEST_F(OtherIds, AreNotTakenWhileTheSourceFollowsTheFirst) {
   SeeFor(5, 0, 2);
