@@ -1,7 +1,5 @@
 #include "cli/evaluation_html.h"
 
-#include <stdlib.h>  // mkdtemp
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -66,36 +64,11 @@ Plot PlotOfGrowth(const TrueSource& source, const Evaluation& found) {
   return plot;
 }
 
-// A folder of this process's own, gone with all that is in it at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string name = (std::filesystem::temp_directory_path(error) / "clearway-XXXXXX").string();
-    if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  // Empty if there is none.
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-// An <img> of what `write` makes.
-absl::StatusOr<std::string> ImageOf(const std::function<absl::Status(const std::string&)>& write) {
-  const TemporaryFolder folder;
-  if (folder.path().empty()) {
-    return absl::UnavailableError("no temporary folder can be made for pictures; is TMPDIR right?");
-  }
-  const std::string png_file = folder.path() / "picture.png";
-  if (absl::Status status = write(png_file); !status.ok()) return status;
-  std::ifstream in(png_file, std::ios::binary);
+// An <img> of what `write` makes in a file that nobody else uses.
+absl::StatusOr<std::string> ImageOf(const std::string& scratch_file,
+                                    const std::function<absl::Status(const std::string&)>& write) {
+  if (absl::Status status = write(scratch_file); !status.ok()) return status;
+  std::ifstream in(scratch_file, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   return absl::StrCat("<img style='max-width: 100%' src='data:image/png;base64,",
                       absl::Base64Escape(bytes), "'>\n");
@@ -110,7 +83,8 @@ std::string NameNow(const TrueSource& source, const SceneSnapshot& scene,
   return absl::StrFormat("%s, unseen for %.1f s", LabelOf(source, object.id), ToSeconds(unseen));
 }
 
-absl::StatusOr<std::string> PicturesOf(const TrueSource& source, const Evaluation& found) {
+absl::StatusOr<std::string> PicturesOf(const std::string& scratch_file, const TrueSource& source,
+                                       const Evaluation& found) {
   SceneSnapshot with_all_objects = *found.scene;
   with_all_objects.objects.clear();
   ObjectSheetOptions sheet;
@@ -119,30 +93,29 @@ absl::StatusOr<std::string> PicturesOf(const TrueSource& source, const Evaluatio
     with_all_objects.objects.push_back(object);
     sheet.names[id] = LabelOf(source, id);
   }
-  const auto objects = ImageOf(
-      [&](const std::string& file) { return WriteObjectSheet(with_all_objects, sheet, file); });
+  const auto objects = ImageOf(scratch_file, [&](const std::string& file) {
+    return WriteObjectSheet(with_all_objects, sheet, file);
+  });
   if (!objects.ok()) return objects.status();
   TopViewOptions view;
   view.title = "The scene after the last frame";
   for (const auto& object : found.scene->objects) {
     view.names[object->id] = NameNow(source, *found.scene, *object);
   }
-  const auto scene =
-      ImageOf([&](const std::string& file) { return WriteTopView(*found.scene, view, file); });
+  const auto scene = ImageOf(scratch_file, [&](const std::string& file) {
+    return WriteTopView(*found.scene, view, file);
+  });
   if (!scene.ok()) return scene.status();
   return absl::StrCat(*objects, *scene);
 }
 
-}  // namespace
-
-absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
-                       const Evaluation& found) {
-  const auto pictures = PicturesOf(source, found);
+// The file is scratch for the pictures before.
+absl::Status WritePage(const std::string& file, const TrueSource& source, const Evaluation& found) {
+  const auto pictures = PicturesOf(file, source, found);
   if (!pictures.ok()) return pictures.status();
   std::ostringstream tables;
   PrintText(tables, source, found);
-  const std::string partial = html_file + ".partial";
-  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: "
       << Escaped(source.frames.description)
       << "</title>\n<body style='font-family: sans-serif; max-width: 1200px; margin: auto'>\n"
@@ -151,12 +124,23 @@ absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
       << SvgOf(PlotOfGrowth(source, found)) << "<pre>" << Escaped(tables.str()) << "</pre>\n"
       << *pictures << "</body></html>\n";
   out.close();
+  if (out) return absl::OkStatus();
+  return absl::InternalError(absl::StrCat(file, ": cannot be written"));
+}
+
+}  // namespace
+
+absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
+                       const Evaluation& found) {
+  const std::string partial = html_file + ".partial";
+  absl::Status written = WritePage(partial, source, found);
   std::error_code error;
-  if (out) std::filesystem::rename(partial, html_file, error);
-  if (out && !error) return absl::OkStatus();
+  if (written.ok()) std::filesystem::rename(partial, html_file, error);
+  if (written.ok() && !error) return written;
   std::error_code ignored;
   std::filesystem::remove(partial, ignored);
-  return absl::InternalError(absl::StrCat(html_file, ": cannot be written"));
+  if (!written.ok()) return written;
+  return absl::InternalError(absl::StrCat(html_file, ": ", error.message()));
 }
 
 }  // namespace clearway::cli
