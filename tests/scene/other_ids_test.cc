@@ -51,6 +51,15 @@ class OtherIds : public testing::Test {
     SeeFor(5, 0, 2);
     SeeFor(9, 3.5, 4.5);
   }
+  // 5, and 6 so far behind it, for two seconds.
+  void SeeTwo(double behind_m) {
+    for (double t = 0; t < 2; t += kPeriod_s) {
+      Frame frame = FrameAt(t);
+      See(frame, 5, t, t == 0);
+      See(frame, 6, t, t == 0, behind_m);
+      Apply(frame);
+    }
+  }
   void Apply(const Frame& frame) {
     const auto report = dut_->Apply(frame);
     ASSERT_TRUE(report.ok()) << report.status();
@@ -148,12 +157,7 @@ TEST_F(OtherIds, FollowTheOneThatIsSeen) {
 }
 
 TEST_F(OtherIds, AreNotTakenFromOneOfTwoThatItCouldBe) {
-  for (double t = 0; t < 2; t += kPeriod_s) {
-    Frame frame = FrameAt(t);
-    See(frame, 5, t, t == 0);
-    See(frame, 6, t, t == 0, 0.6);
-    Apply(frame);
-  }
+  SeeTwo(0.6);
   for (double t = 3.5; t < 4.5; t += kPeriod_s) {
     Frame frame = FrameAt(t);
     See(frame, 9, t, t == 3.5, 0.3);
@@ -165,12 +169,7 @@ TEST_F(OtherIds, AreNotTakenFromOneOfTwoThatItCouldBe) {
 
 // 9 could be 5 or 6, and 10 could be 5; that 9 is no longer young does not make 10 be 5.
 TEST_F(OtherIds, AreNotTakenWhileAnotherCouldBeTheLostOne) {
-  for (double t = 0; t < 2; t += kPeriod_s) {
-    Frame frame = FrameAt(t);
-    See(frame, 5, t, t == 0);
-    See(frame, 6, t, t == 0, 2);
-    Apply(frame);
-  }
+  SeeTwo(2);
   for (int k = 35; k < 70; ++k) {
     const double t = k * kPeriod_s;
     Frame frame = FrameAt(t);
