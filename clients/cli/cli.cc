@@ -1,10 +1,13 @@
 #include "cli/cli.h"
 
+#include <algorithm>
 #include <memory>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "cli/commands.h"
 #include "cli/message.h"
+#include "cli/text.h"
 #include "cli/values.h"
 
 namespace clearway::cli {
@@ -41,16 +44,25 @@ int Done(const Terminal& terminal) {
   return kExitFailed;
 }
 
+std::string CommandLine(int argc, const char* const* argv) {
+  std::string line = "clearway";
+  for (int i = 1; i < argc; ++i) absl::StrAppend(&line, " ", ShellQuoted(argv[i]));
+  return line;
+}
+
 // Help and version go to `out`, complaints to `err`.
 int Explain(const CLI::App& app, const CLI::ParseError& error, const Terminal& terminal) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     app.exit(error, terminal.out, terminal.err);
     return Done(terminal);
   }
-  std::string command = "clearway";
+  std::string command = "clearway", message = error.what();
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
-  terminal.err << "clearway: " << error.what() << "\nRun '" << command
-               << " --help' for its usage.\n";
+  // What is not known comes before what is missing, as that may just be misspelt.
+  const std::vector<std::string> unknown = app.remaining(/*recurse=*/true);
+  const auto flag = std::ranges::find_if(unknown, [](const auto& w) { return w.starts_with("-"); });
+  if (flag != unknown.end()) message = "there is no flag " + *flag;
+  terminal.err << "clearway: " << message << "\nRun '" << command << " --help' for its usage.\n";
   return kExitUsage;
 }
 
@@ -90,7 +102,7 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal) {
   app.set_version_flag("--version", "clearway " CLEARWAY_VERSION);
   app.require_subcommand(0, 1);
   app.footer(kFooter);
-  Cli cli{app, terminal, nullptr};
+  Cli cli{app, terminal, CommandLine(argc, argv), nullptr};
   AddAllCommands(cli);
   try {
     app.parse(argc, argv);

@@ -30,6 +30,7 @@ struct Terminal {
 struct Cli {
   CLI::App& app;
   Terminal& terminal;
+  std::string command_line;              // as a shell takes it, with the program's short name
   std::function<absl::Status()> action;  // of the subcommand that was chosen
 };
 

@@ -139,7 +139,8 @@ absl::Status CheckPage(const std::string& file) {
   return absl::NotFoundError("--html: " + file + ": there is no such folder");
 }
 
-absl::Status Run(const Flags& flags, const Terminal& terminal) {
+absl::Status Run(const Flags& flags, const Cli& cli) {
+  const Terminal& terminal = cli.terminal;
   if (auto status = CheckPage(flags.html); !status.ok()) return status;
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
@@ -147,8 +148,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (mends && !source->simulation) {
     if (auto status = CarryTruth(flags, terminal, *source); !status.ok()) return status;
   }
-  const auto found = Evaluate(*source, flags, terminal);
+  auto found = Evaluate(*source, flags, terminal);
   if (!found.ok()) return found.status();
+  found->command = cli.command_line;
   if (!flags.html.empty()) {
     if (auto status = WriteHtml(flags.html, *source, *found); !status.ok()) return status;
   }
@@ -162,7 +164,7 @@ void AddEvaluate(Cli& cli) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command =
       AddCommand(cli, "evaluate", "Compare maps and predictions with what is really there",
-                 kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
+                 kExamples, [flags, &cli] { return Run(*flags, cli); });
   command
       ->add_option("input", flags->spec,
                    "A folder of LiDAR scans with boxes (CARLA's, too), a\nKITTI, TUM RGB-D or "
@@ -221,6 +223,7 @@ void AddEvaluate(Cli& cli) {
       ->check(Between(0, 1000))
       ->capture_default_str();
   command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
+      ->check([](const std::string& file) { return file.empty() ? "name a file" : ""; })
       ->type_name("FILE");
   command->add_flag("--json", flags->json, "Print JSON");
   AddErrorFlags(command, &flags->errors);

@@ -32,6 +32,7 @@ inline constexpr std::array kWaysAhead = {Duration::zero(), Duration(kAhead[0]),
                                           Duration(kAhead[3])};
 
 struct Evaluation {
+  std::string command;                                            // that made it
   std::map<ObjectId, std::vector<PredictionErrors>> predictions;  // by kAhead
   std::map<ObjectId, BoxFit> sizes;
   // After each frame that showed the object: seconds since the first frame, occupied voxels.

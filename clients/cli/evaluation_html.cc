@@ -119,7 +119,8 @@ absl::Status WritePage(const std::string& file, const TrueSource& source, const 
   out << "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: "
       << Escaped(source.frames.description)
       << "</title>\n<body style='font-family: sans-serif; max-width: 1200px; margin: auto'>\n"
-      << "<h1>Maps and predictions against the truth</h1>\n"
+      << "<h1>Maps and predictions against the truth</h1>\n<p>Clearway " CLEARWAY_VERSION ": <code>"
+      << Escaped(found.command) << "</code></p>\n"
       << SvgOf(PlotOfPredictions(source, found)) << SvgOf(PlotOfBounds(found))
       << SvgOf(PlotOfGrowth(source, found)) << "<pre>" << Escaped(tables.str()) << "</pre>\n"
       << *pictures << "</body></html>\n";

@@ -29,5 +29,7 @@ std::string Point(const Eigen::Vector3d& p, int decimals = 2);
 std::string Size(const Eigen::Vector3d& size);
 // "1 frame", "2 frames".
 std::string Plural(std::uint64_t count, const std::string& noun);
+// One word of a POSIX shell: "x.json", "'my file'".
+std::string ShellQuoted(const std::string& word);
 
 }  // namespace clearway::cli

@@ -58,6 +58,8 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"fly"}, "fly"},
       {{"status", "--fast"}, "--fast"},
+      {{"evaluate", "--bogus"}, "--bogus"},
+      {{"evaluate", "sim:small", "--html", ""}, "--html"},
       {{"replay"}, "source"},
       {{"simulate", "small", "--out", "x", "--noise", "loud"}, "--noise"},
       {{"occupancy", "--at", "1,2"}, "--at"},

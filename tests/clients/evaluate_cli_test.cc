@@ -78,6 +78,7 @@ TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
   const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "30", "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const auto json = nlohmann::json::parse(dut.out);
+  EXPECT_EQ(json["command"], "clearway evaluate sim:small --frames 30 --json");
   ASSERT_FALSE(json["objects"].empty());
   for (const auto& object : json["objects"]) {
     const auto& ahead = object["prediction"];
@@ -157,7 +158,8 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
       Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const std::string html = BytesOf(page);
-  for (const char* part : {"<!doctype html>", "<svg", "maps grow", "map / box", "</html>"}) {
+  for (const char* part :
+       {"<!doctype html>", "<svg", "maps grow", "map / box", "--frames 12", "</html>"}) {
     EXPECT_THAT(html, HasSubstr(part));
   }
   const std::string image = "src='data:image/png;base64,";

@@ -73,6 +73,13 @@ TEST(Text, ClocksRoundUp) {
   EXPECT_EQ(Clock(3723), "1:02:03");
 }
 
+TEST(Text, WordsOfAShell) {
+  EXPECT_EQ(ShellQuoted("sim:street"), "sim:street");
+  EXPECT_EQ(ShellQuoted(""), "''");
+  EXPECT_EQ(ShellQuoted("my drive"), "'my drive'");
+  EXPECT_EQ(ShellQuoted("it's $1"), R"('it'\''s $1')");
+}
+
 TEST(Text, NothingHasNoSize) {
   EXPECT_EQ(Size(Eigen::Vector3d::Zero()), "-");
   EXPECT_EQ(Size({4.31, 1.8, 1.625}), "4.31 x 1.80 x 1.62 m");
