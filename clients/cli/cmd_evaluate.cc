@@ -1,6 +1,5 @@
 // clearway evaluate: what a scene made of its frames and foresaw, against the truth.
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -128,20 +127,11 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
   return found;
 }
 
-// Before an evaluation, which may take minutes.
-absl::Status CheckPage(const std::string& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    return absl::InvalidArgumentError("--html: " + file + ": is a folder; name a file");
-  }
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder, ignored)) return absl::OkStatus();
-  return absl::NotFoundError("--html: " + file + ": there is no such folder");
-}
-
 absl::Status Run(const Flags& flags, const Cli& cli) {
   const Terminal& terminal = cli.terminal;
-  if (auto status = CheckPage(flags.html); !status.ok()) return status;
+  if (!flags.html.empty()) {
+    if (auto status = CheckPage(flags.html); !status.ok()) return status;
+  }
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
   const bool mends = flags.sensor_error_m > 0 || flags.sensor_error_deg > 0;

@@ -61,7 +61,7 @@ class Pace {
 // Frames [first, end) of the source through one stream; returns what stopped it early.
 absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t end,
                      const Flags& flags, FrameSender& sender, AckTally& tally,
-                     ProgressBar* progress) {
+                     ProgressBar& progress) {
   Pace pace(flags.rate);
   for (std::size_t i = first; i < end; ++i) {
     const auto frame = source.read(i);
@@ -70,7 +70,7 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
     tally.Sent(frame->points_S.size());
     if (const absl::Status status = sender.Send(*frame); !status.ok()) return status;
     if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
-    if (progress != nullptr) progress->Update(tally.counts().answered, tally.counts().points);
+    progress.Update(tally.counts().answered, tally.counts().points);
   }
   return absl::OkStatus();
 }
@@ -139,14 +139,15 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
   absl::Status status = sender.OpenStream(tally.OnAck(), wait_for);
   if (!status.ok()) return status;
-  ProgressBar progress(terminal.err, terminal.err_is_terminal, end - flags.from);
-  status =
-      SendAll(*source, flags.from, end, flags, sender, tally, flags.quiet ? nullptr : &progress);
+  std::ostream nowhere(nullptr);
+  ProgressBar progress(flags.quiet ? nowhere : terminal.err, terminal.err_is_terminal,
+                       end - flags.from);
+  status = SendAll(*source, flags.from, end, flags, sender, tally, progress);
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
   const AckTally::Counts counts = tally.counts();
   progress.Update(counts.answered, counts.points);
-  if (!flags.quiet) progress.Finish();
+  progress.Finish();
   if (!status.ok()) return status;
 
   if (flags.json) {

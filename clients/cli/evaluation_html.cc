@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +20,9 @@
 
 namespace clearway::cli {
 namespace {
+
+constexpr std::string_view kBegin =
+    "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: ";
 
 std::string LabelOf(const TrueSource& source, ObjectId id) {
   return absl::StrCat(id, " ", NameOf(source, id));
@@ -116,8 +120,7 @@ absl::Status WritePage(const std::string& file, const TrueSource& source, const 
   std::ostringstream tables;
   PrintText(tables, source, found);
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << "<!doctype html>\n<html lang='en'><meta charset='utf-8'>\n<title>Clearway: "
-      << Escaped(source.frames.description)
+  out << kBegin << Escaped(source.frames.description)
       << "</title>\n<body style='font-family: sans-serif; max-width: 1200px; margin: auto'>\n"
       << "<h1>Maps and predictions against the truth</h1>\n<p>Clearway " CLEARWAY_VERSION ": <code>"
       << Escaped(found.command) << "</code></p>\n"
@@ -131,17 +134,40 @@ absl::Status WritePage(const std::string& file, const TrueSource& source, const 
 
 }  // namespace
 
+absl::Status CheckPage(const std::string& html_file) {
+  std::error_code ignored;
+  const auto refused = [&](const char* why) {
+    return absl::FailedPreconditionError(absl::StrCat("--html: ", html_file, why));
+  };
+  const std::filesystem::path path = html_file, folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
+    return refused(": there is no such folder");
+  }
+  if (!std::filesystem::exists(path, ignored)) return absl::OkStatus();
+  if (std::filesystem::is_directory(path, ignored)) return refused(": is a folder; name a file");
+  if (!std::filesystem::is_regular_file(path, ignored)) return refused(": is no regular file");
+  std::string begin(kBegin.size(), ' ');
+  std::ifstream(path, std::ios::binary).read(begin.data(), std::ssize(begin));
+  if (begin == kBegin) return absl::OkStatus();
+  return refused(" exists and is no page; name another file");
+}
+
 absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
                        const Evaluation& found) {
-  const std::string partial = html_file + ".partial";
-  absl::Status written = WritePage(partial, source, found);
-  std::error_code error;
-  if (written.ok()) std::filesystem::rename(partial, html_file, error);
+  std::error_code error, ignored;
+  const auto failed = [&] {
+    return absl::InternalError(absl::StrCat(html_file, ": ", error.message()));
+  };
+  const std::filesystem::path file = std::filesystem::weakly_canonical(html_file, error);
+  if (error) return failed();  // a link in a circle
+  const std::string partial = file.string() + ".partial";
+  const absl::Status written = WritePage(partial, source, found);
+  if (written.ok()) std::filesystem::rename(partial, file, error);
   if (written.ok() && !error) return written;
-  std::error_code ignored;
-  std::filesystem::remove(partial, ignored);
-  if (!written.ok()) return written;
-  return absl::InternalError(absl::StrCat(html_file, ": ", error.message()));
+  if (std::filesystem::is_regular_file(partial, ignored)) {
+    std::filesystem::remove(partial, ignored);
+  }
+  return written.ok() ? failed() : written;
 }
 
 }  // namespace clearway::cli

@@ -8,6 +8,10 @@
 
 namespace clearway::cli {
 
+// Before an evaluation, which may take minutes: whether the file can be a page. A page that is
+// there is written anew; nothing else is: FAILED_PRECONDITION.
+absl::Status CheckPage(const std::string& html_file);
+
 // The tables, plots of how predictions miss and how the objects' maps grow, pictures of the objects
 // and of the scene. INTERNAL if the file cannot be written.
 absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,

@@ -1,11 +1,13 @@
 #include "scene/other_ids.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "scene/reidentification.h"
+#include "scene/same_object.h"
 
 namespace clearway {
 namespace {
@@ -56,49 +58,71 @@ struct Match {
   Pose T_Y_L;  // of their frames
 };
 
-// With those of some lost objects that were lost before `young` was first seen.
-std::vector<Match> MatchesOf(const MovingObject& young, const ObjectMap& lost_ones,
-                             const SceneParams& params) {
+// Of the objects that are to be joined now.
+std::vector<Match> FindMatches(const ObjectMap& objects, Time stamp, const SceneParams& params) {
+  const std::set<ObjectId> in_groups = IdsInGroups(objects);
   std::vector<Match> matches;
-  if (young.given()) return matches;
-  for (const auto& [id, lost] : lost_ones) {
-    if (lost->given() || lost->t_k() >= young.first_seen) continue;
-    const std::optional<Pose> T_Y_L = SeenAgain(*lost, young, params);
-    if (T_Y_L) matches.push_back({id, young.id, *T_Y_L});
+  for (const auto& [young_id, young] : objects) {
+    if (in_groups.contains(young_id) || !IsToBeJoined(*young, stamp)) continue;
+    for (const auto& [lost_id, lost] : objects) {
+      if (in_groups.contains(lost_id) || !WasLostBefore(*lost, *young)) continue;
+      const std::optional<Pose> T_Y_L = SeenAgain(*lost, *young, params);
+      if (T_Y_L) matches.push_back({lost_id, young_id, *T_Y_L});
+    }
   }
   return matches;
 }
 
-// Those of the objects that are to be joined now, and of all others that could be one of the same
-// lost objects, however long they are known: what one of them may be no other one is.
-struct Matches {
-  std::vector<Match> due, others;
+// Whether an object that may be the young one as well is likely to be the lost one, too: where it
+// was to be then, another one cannot have been; or, as the young one, it is much farther off.
+bool IsLostOne(const Match& match, double as_young_m, double as_lost_m, const ObjectMap& objects,
+               const SceneParams& params) {
+  constexpr double kNearlyAsWell = 2;
+  const MovingObject& lost = *objects.at(match.lost);
+  const double beside_m = ToleranceOfPlace_m(lost, 0, 0);
+  const double match_m = DistanceIfSame_m(lost, *objects.at(match.young), params).value_or(0);
+  return as_lost_m <= beside_m || as_young_m > kNearlyAsWell * match_m + beside_m;
+}
 
-  template <class Predicate>
-  std::ptrdiff_t CountIf(Predicate&& predicate) const {
-    return std::ranges::count_if(due, predicate) + std::ranges::count_if(others, predicate);
+// Whether the young one may be another object that was lost, or the lost one another that was seen
+// since: however long that one is known by now.
+bool IsRival(const Match& match, const MovingObject& other, const ObjectMap& objects, Time stamp,
+             const SceneParams& params) {
+  const MovingObject& lost = *objects.at(match.lost);
+  const MovingObject& young = *objects.at(match.young);
+  const auto since_m = DistanceIfSame_m(lost, other, params);
+  if (const auto as_young_m = DistanceIfSame_m(other, young, params)) {
+    const auto as_lost_m = since_m ? since_m : DistanceIfSame_m(other, lost, params);
+    return !as_lost_m || !IsLostOne(match, *as_young_m, *as_lost_m, objects, params);
   }
-};
+  if (since_m) return true;
+  // What is to be joined now has matches of its own.
+  return WasLostBefore(lost, other) && !IsToBeJoined(other, stamp) &&
+         SeenAgain(lost, other, params).has_value();
+}
 
-Matches FindMatches(const ObjectMap& objects, Time stamp, const SceneParams& params) {
-  const std::set<ObjectId> in_groups = IdsInGroups(objects);
-  ObjectMap alone;
-  for (const auto& entry : objects) {
-    if (!in_groups.contains(entry.first)) alone.insert(entry);
-  }
-  Matches matches;
-  const auto add = [&](bool due, const ObjectMap& lost_ones, std::vector<Match>& to) {
-    for (const auto& [id, object] : alone) {
-      if (IsToBeJoined(*object, stamp) != due) continue;
-      const std::vector<Match> of_object = MatchesOf(*object, lost_ones, params);
-      to.insert(to.end(), of_object.begin(), of_object.end());
-    }
+bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects,
+            const SceneObjects& dropped_lately, Time stamp, const SceneParams& params) {
+  const bool alone = std::ranges::count_if(matches, [&](const Match& other) {
+                       return other.lost == match.lost || other.young == match.young;
+                     }) == 1;
+  // In a chain of three the first two go first.
+  const bool lost_is_matched =
+      std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
+  if (!alone || lost_is_matched) return false;
+  const auto is_rival = [&](const MovingObject& other) {
+    return IsRival(match, other, objects, stamp, params);
   };
-  add(true, alone, matches.due);
-  ObjectMap wanted;
-  for (const Match& match : matches.due) wanted[match.lost] = alone.at(match.lost);
-  add(false, wanted, matches.others);
-  return matches;
+  const Time young_since = objects.at(match.young)->first_seen;
+  const auto was_there = [&](const MovingObject& dropped) {
+    return young_since - dropped.last_seen <= params.object_lifetime;
+  };
+  return std::ranges::none_of(dropped_lately,
+                              [&](const auto& d) { return was_there(*d) && is_rival(*d); }) &&
+         std::ranges::none_of(objects, [&](const auto& entry) {
+           return entry.first != match.lost && entry.first != match.young &&
+                  is_rival(*entry.second);
+         });
 }
 
 }  // namespace
@@ -137,26 +161,33 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clu
   return two_after_all;
 }
 
-std::size_t JoinSeenAgain(ObjectMap& objects, Time stamp, const SceneParams& params,
-                          ThreadPool& pool) {
-  const Matches matches = FindMatches(objects, stamp, params);
-  std::size_t joined = 0;
-  for (const Match& match : matches.due) {
-    const bool unique = matches.CountIf([&](const Match& other) {
-      return other.lost == match.lost || other.young == match.young;
-    }) == 1;
-    // In a chain of three the first two go first.
-    const bool lost_is_matched =
-        matches.CountIf([&](const Match& other) { return other.young == match.lost; }) > 0;
-    if (!unique || lost_is_matched) continue;
+SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObjects& before,
+                           const ObjectMap& objects, Time stamp, const SceneParams& params) {
+  SceneObjects dropped;
+  for (const auto& object : dropped_before) {
+    if (stamp - object->last_seen <= params.object_lifetime + kYoung) dropped.push_back(object);
+  }
+  for (const auto& object : before) {
+    if (!object->given() && !objects.contains(object->id)) dropped.push_back(object);
+  }
+  return dropped;
+}
+
+std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
+                          const SceneParams& params, ThreadPool& pool) {
+  const std::vector<Match> matches = FindMatches(objects, stamp, params);
+  std::vector<Match> sure;
+  std::ranges::copy_if(matches, std::back_inserter(sure), [&](const Match& match) {
+    return IsSure(match, matches, objects, dropped_lately, stamp, params);
+  });
+  for (const Match& match : sure) {
     const MovingObject& lost = *objects.at(match.lost);
     const MovingObject& young = *objects.at(match.young);
     objects[match.lost] =
         std::make_shared<const MovingObject>(Joined(lost, young, match.T_Y_L, stamp, params, pool));
     objects.erase(match.young);
-    ++joined;
   }
-  return joined;
+  return sure.size();
 }
 
 }  // namespace clearway

@@ -22,10 +22,15 @@ SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time s
 // their clues stay as they are.
 std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues);
 
+// Those of the objects that were dropped before, and of all that were there before, that are no
+// longer among the objects, but may be what was first seen not long ago.
+SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObjects& before,
+                           const ObjectMap& objects, Time stamp, const SceneParams& params);
+
 // Joins objects that were first seen not long ago to those they are, which were lost before.
-// Nothing is joined that could be one of two, nor what is a part of something or has parts. Returns
-// how many were.
-std::size_t JoinSeenAgain(ObjectMap& objects, Time stamp, const SceneParams& params,
-                          ThreadPool& pool);
+// Nothing is joined that could be one of two, dropped ones included, nor what is a part of
+// something or has parts. Returns how many were.
+std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
+                          const SceneParams& params, ThreadPool& pool);
 
 }  // namespace clearway

@@ -6,6 +6,7 @@
 
 #include "scene/completion.h"
 #include "scene/position_bound.h"
+#include "scene/same_object.h"
 #include "scene/view_registration.h"
 
 namespace clearway {
@@ -62,33 +63,20 @@ bool IsAsLarge(const MovingObject& lost, const std::vector<Eigen::Vector3d>& poi
   return shares[1] >= kLeast;
 }
 
-Eigen::Vector3d VelocityOfCenter(const MovingObject& object, const Pose& T_W_O) {
-  const Twist& twist_O = *object.velocity_O;
-  const Eigen::Vector3d center_O = object.observed_box_O.Center();
-  return T_W_O.rotation * (twist_O.linear + twist_O.angular.cross(center_O));
-}
-
 bool GoesAlike(const MovingObject& lost, const Pose& T_W_L, const MovingObject& young,
                double unseen_s) {
-  constexpr std::size_t kFewestPoses = 3;
-  if (!lost.velocity_O || !young.velocity_O || young.history.size() < kFewestPoses) return false;
-  constexpr double kAlways_mps = 0.5, kOfSpeed = 0.3, kOfSpeedPer_s = 0.06;
-  const Eigen::Vector3d before_mps = VelocityOfCenter(lost, T_W_L);
-  const Eigen::Vector3d now_mps = VelocityOfCenter(young, young.history.back().T_W_O);
-  return (now_mps - before_mps).norm() <=
-         kAlways_mps + (kOfSpeed + kOfSpeedPer_s * unseen_s) * before_mps.norm();
+  const auto before_mps = VelocityAt_mps(lost, T_W_L), now_mps = VelocityNow_mps(young);
+  return before_mps && now_mps && MayComeToGo(*before_mps, *now_mps, unseen_s);
 }
 
-// How far from where it is predicted it may be; none if poses, and with them velocities (of about a
-// second), are off by so much that another one like it could be there. That one cannot be nearer to
-// it than its width, nor does what goes slowly get far; after a long way one could be.
+// None if poses, and with them velocities (of about a second), are off by so much that another one
+// like it could be there. That one cannot be nearer to it than its width, nor does what goes slowly
+// get far; after a long way one could be.
 std::optional<double> Tolerance_m(const MovingObject& lost, double unseen_s,
                                   const SceneParams& params) {
-  constexpr double kOfWidth = 0.5, kOfWay = 0.1;
-  const Eigen::Vector3d size_m = lost.observed_box_O.max - lost.observed_box_O.min;
-  const double beside_m = kOfWidth * std::min(size_m.x(), size_m.y());
+  const double beside_m = ToleranceOfPlace_m(lost, 0, unseen_s);
   if (params.object_pose_error_m * std::max(1.0, unseen_s) > beside_m) return std::nullopt;
-  return beside_m + kOfWay * lost.SpeedMps() * unseen_s;
+  return ToleranceOfPlace_m(lost, lost.SpeedMps(), unseen_s);
 }
 
 // Whether they are so near each other that registering them is worth its time.
@@ -96,12 +84,6 @@ bool MayTouch(const MovingObject& lost, const Pose& T_W_L, const MovingObject& y
               const Pose& T_W_Y, double apart_m) {
   const Aabb lost_W = Transformed(T_W_L, lost.observed_box_O).Padded(apart_m);
   return lost_W.Intersects(Transformed(T_W_Y, young.observed_box_O));
-}
-
-// The first pose that is no prediction.
-const StampedPose& FirstPose(const MovingObject& object) {
-  return *std::find_if(object.history.begin(), object.history.end() - 1,
-                       [&](const StampedPose& p) { return p.stamp >= object.tracked_since; });
 }
 
 // The guess, mended so that the points, given in Y, fit.

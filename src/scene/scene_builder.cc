@@ -118,14 +118,19 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   DynamicSpace dynamic_W = StillIn(static_map_W, *cast);
   report.voxels_dynamic = dynamic_W.voxels().size();
   UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
+  SceneObjects dropped_lately;
   if (scene_.params.reidentify) {
-    report.objects_reidentified = JoinSeenAgain(objects, frame.stamp, scene_.params, *pool_);
+    dropped_lately =
+        DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
+    report.objects_reidentified =
+        JoinSeenAgain(objects, dropped_lately, frame.stamp, scene_.params, *pool_);
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckSize(static_map_W, objects, limits_); !status.ok()) return status;
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
+  dropped_lately_ = std::move(dropped_lately);
   scene_.objects.clear();
   for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
   scene_.stamp = frame.stamp;
@@ -212,6 +217,7 @@ void SceneBuilder::Reset() {
   const std::uint64_t version = scene_.version;
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
+  dropped_lately_.clear();
   corrections_ = WorldCorrections(scene_.params.history);
   has_frames_ = false;
   changed_ = true;

@@ -167,13 +167,28 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
   EXPECT_EQ(html.find("src='http"), std::string::npos);
   EXPECT_EQ(BytesOf(other), "somebody's own");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
-  const Finished nowhere =
-      Clearway({"evaluate", "sim:small", "--frames", "2", "--html", folder / "missing/small.html"});
-  EXPECT_EQ(nowhere.exit_code, 1);
-  EXPECT_THAT(nowhere.err, HasSubstr("missing/small.html"));
-  const Finished a_folder = Clearway({"evaluate", "sim:small", "--html", folder.path()});
-  EXPECT_EQ(a_folder.exit_code, 1);
-  EXPECT_THAT(a_folder.err, HasSubstr("is a folder; name a file"));
+}
+
+TEST(Evaluate, ReplacesNothingButAPage) {
+  const TemporaryFolder folder;
+  const std::string other = folder / "other", page = folder / "page.html";
+  std::ofstream(other) << "somebody's own";
+  std::filesystem::create_symlink(page, folder / "link.html");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {other, "exists and is no page; name another file"},
+      {folder / "missing/small.html", "missing/small.html: there is no such folder"},
+      {folder.path(), "is a folder; name a file"},
+      {"/dev/null", "is no regular file"},
+      {page, ""},
+      {folder / "link.html", ""}};
+  for (const auto& [file, why] : cases) {
+    const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "2", "--html", file});
+    EXPECT_EQ(dut.exit_code, why.empty() ? 0 : 1) << file;
+    EXPECT_THAT(dut.err, HasSubstr(why));
+  }
+  EXPECT_EQ(BytesOf(other), "somebody's own");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.html"));
+  EXPECT_THAT(BytesOf(page), HasSubstr("</html>"));
 }
 
 // Whose rays are 1.4 degrees apart.

@@ -105,6 +105,8 @@ class SceneBuilder {
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
 
   SceneSnapshot scene_;  // its version is the one published last
+  // With SceneParams::reidentify: they could be seen again.
+  std::vector<std::shared_ptr<const MovingObject>> dropped_lately_;
   WorldCorrections corrections_;
   FrameLimits limits_;
   ThreadPool* pool_;

@@ -1,0 +1,128 @@
+#include "scene/same_object.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway {
+namespace {
+
+Eigen::Vector3d VelocityOfCenter_mps(const MovingObject& object, const Pose& T_W_O) {
+  const Twist& twist_O = *object.velocity_O;
+  const Eigen::Vector3d center_O = object.observed_box_O.Center();
+  return T_W_O.rotation * (twist_O.linear + twist_O.angular.cross(center_O));
+}
+
+Eigen::Vector3d SeenSize_m(const MovingObject& object) {
+  return object.observed_box_O.max - object.observed_box_O.min;
+}
+
+// Along the way it goes, across it, and its height.
+struct Lengths_m {
+  double along, across, up;
+};
+
+std::optional<Lengths_m> LengthsOf(const MovingObject& object) {
+  constexpr std::int64_t kFewestFrames = 3, kFewestVoxels = 20;
+  if (object.frames_seen < kFewestFrames || object.map_O.occupied_count() < kFewestVoxels ||
+      !object.velocity_O) {
+    return std::nullopt;
+  }
+  const Eigen::Array3d size_m = SeenSize_m(object).array() + object.map_O.grid().resolution_m();
+  const Eigen::Vector3d& way_O = object.velocity_O->linear;
+  const int along = std::abs(way_O.x()) >= std::abs(way_O.y()) ? 0 : 1;
+  return Lengths_m{size_m[along], size_m[1 - along], size_m.z()};
+}
+
+// In two of three, as a view from one side tells no more; of what is seen from an end alone, and so
+// looks broad, nobody knows how long it is.
+bool AreAsLarge(const MovingObject& lost, const MovingObject& seen) {
+  constexpr double kAlike = 0.75, kBroad = 2;
+  const auto a = LengthsOf(lost), b = LengthsOf(seen);
+  if (!a || !b) return true;
+  const auto alike = [](double x, double y) { return std::min(x, y) >= kAlike * std::max(x, y); };
+  const auto broad = [](const Lengths_m& l) { return l.across > kBroad * l.along; };
+  return (broad(*a) || broad(*b) || alike(a->along, b->along)) + alike(a->across, b->across) +
+             alike(a->up, b->up) >=
+         2;
+}
+
+double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                         const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - share * along).norm();
+}
+
+// From where it is predicted to where it would be had it gone as `seen` does.
+struct Places {
+  Eigen::Vector3d predicted_W, gone_otherwise_W;
+};
+
+Places PlacesOf(const MovingObject& lost, const Pose& T_W_L,
+                const std::optional<Eigen::Vector3d>& seen_mps, double unseen_s) {
+  const Eigen::Vector3d center_O = lost.observed_box_O.Center();
+  const Eigen::Vector3d predicted_W = T_W_L * center_O;
+  if (!seen_mps) return {predicted_W, predicted_W};
+  const Eigen::Vector3d gone_W = lost.history.back().T_W_O * center_O + unseen_s * *seen_mps;
+  return {lost.velocity_O ? predicted_W : gone_W, gone_W};
+}
+
+}  // namespace
+
+const StampedPose& FirstPose(const MovingObject& object) {
+  return *std::find_if(object.history.begin(), object.history.end() - 1,
+                       [&](const StampedPose& p) { return p.stamp >= object.tracked_since; });
+}
+
+std::optional<Eigen::Vector3d> VelocityNow_mps(const MovingObject& seen) {
+  constexpr std::size_t kFewestPoses = 3;
+  if (!seen.velocity_O || seen.history.size() < kFewestPoses) return std::nullopt;
+  return VelocityOfCenter_mps(seen, seen.history.back().T_W_O);
+}
+
+std::optional<Eigen::Vector3d> VelocityAt_mps(const MovingObject& lost, const Pose& T_W_L) {
+  if (!lost.velocity_O) return std::nullopt;
+  return VelocityOfCenter_mps(lost, T_W_L);
+}
+
+bool MayComeToGo(const Eigen::Vector3d& before_mps, const Eigen::Vector3d& now_mps,
+                 double unseen_s) {
+  constexpr double kAlways_mps = 0.5, kOfSpeed = 0.3, kOfSpeedPer_s = 0.06, kMostOfSpeed = 0.6;
+  const double of_speed = std::min(kOfSpeed + kOfSpeedPer_s * unseen_s, kMostOfSpeed);
+  return (now_mps - before_mps).norm() <= kAlways_mps + of_speed * before_mps.norm();
+}
+
+double ToleranceOfPlace_m(const MovingObject& lost, double speed_mps, double unseen_s) {
+  constexpr double kOfWidth = 0.5, kOfWay = 0.1;
+  const Eigen::Vector3d size_m = SeenSize_m(lost);
+  return kOfWidth * std::min(size_m.x(), size_m.y()) + kOfWay * speed_mps * unseen_s;
+}
+
+bool WasLostBefore(const MovingObject& lost, const MovingObject& seen) {
+  return !lost.given() && !seen.given() && lost.t_k() < seen.first_seen;
+}
+
+std::optional<double> DistanceIfSame_m(const MovingObject& lost, const MovingObject& seen,
+                                       const SceneParams& params) {
+  if (!WasLostBefore(lost, seen) || !AreAsLarge(lost, seen)) return std::nullopt;
+  const StampedPose& first = FirstPose(seen);
+  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
+  const Pose T_W_L = PredictPose(lost, first.stamp, Duration::max()).T_W_O;
+  const auto lost_mps = VelocityAt_mps(lost, T_W_L), seen_mps = VelocityNow_mps(seen);
+  if (lost_mps && seen_mps && !MayComeToGo(*lost_mps, *seen_mps, unseen_s)) return std::nullopt;
+
+  const double speed_mps = std::max(lost.SpeedMps(), seen_mps ? seen_mps->norm() : 0.0);
+  // Of what was seen in part, the centre is another.
+  const double center_m = std::abs(SeenSize_m(lost).norm() - SeenSize_m(seen).norm()) / 2;
+  const double told_m = params.object_pose_error_m * std::max(1.0, unseen_s);
+  const Places places = PlacesOf(lost, T_W_L, seen_mps, unseen_s);
+  const Eigen::Vector3d there_W = first.T_W_O * seen.observed_box_O.Center();
+  if (DistanceToSegment(there_W, places.predicted_W, places.gone_otherwise_W) >
+      ToleranceOfPlace_m(lost, speed_mps, unseen_s) + center_m + told_m) {
+    return std::nullopt;
+  }
+  return (there_W - places.predicted_W).norm();
+}
+
+}  // namespace clearway
