@@ -1,7 +1,7 @@
 // Objects that were lost and could be the one that is seen again, so that nobody is.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "clearway/scene/scene_builder.h"
