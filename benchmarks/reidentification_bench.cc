@@ -1,6 +1,7 @@
 // How many of the objects that are lost out of sight and come back under new ids are known again,
 // and whether one is ever taken for another: in twenty simulated worlds, exact and with the errors
-// of the paper's Table I; and on the real drive, where objects are hidden for a while at random.
+// of the paper's Table I; in twenty more, of people in file who look alike; and on the real drive,
+// where objects are hidden for a while at random.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -56,19 +57,23 @@ void Count(const Identities& found, const std::string& suffix, benchmark::State&
   state.counters["reidentified_wrong" + suffix] = static_cast<double>(found.wrong);
 }
 
-void InSimulations(benchmark::State& state, int count, bool noisy) {
+// The scenario's worlds of the first so many seeds.
+struct Simulations {
+  std::string scenario = "occlusions";
+  std::uint64_t count;
+  SlamNoise noise = {};
+};
+
+void InSimulations(const Simulations& worlds, const std::string& suffix, benchmark::State& state) {
+  SceneParams params = Params();
+  params.object_pose_error_m = worlds.noise.object.mean_translation_m;
+  params.object_pose_error_rad = worlds.noise.object.mean_rotation_rad;
   Identities all;
-  for (int seed = 1; seed <= count; ++seed) {
-    ScenarioOptions options{.seed = static_cast<std::uint64_t>(seed)};
-    SceneParams params = Params();
-    if (noisy) {
-      options.noise = SlamNoise::TableOne();
-      params.object_pose_error_m = options.noise.object.mean_translation_m;
-      params.object_pose_error_rad = options.noise.object.mean_rotation_rad;
-    }
-    all += IdentitiesIn(MakeScenario("occlusions", options)->Frames(), params, [](Frame&) {});
+  for (std::uint64_t seed = 1; seed <= worlds.count; ++seed) {
+    const auto simulation = MakeScenario(worlds.scenario, {.seed = seed, .noise = worlds.noise});
+    all += IdentitiesIn(simulation->Frames(), params, [](Frame&) {});
   }
-  Count(all, noisy ? "_table1" : "", state);
+  Count(all, suffix, state);
 }
 
 // Takes each object out of frames for 0.7 to 3 s at a time, and shows it for 1.5 to 3.5 s between.
@@ -107,14 +112,14 @@ class Hider {
   std::map<ObjectId, Phase> phases_;
 };
 
-void OnTheDrive(benchmark::State& state, const std::string& path, int count) {
+void OnTheDrive(benchmark::State& state, const std::string& path, unsigned count) {
   const auto folder = OpenLidarFolder(path, {.poses = LidarPoses::kIcp});
   if (!folder.ok()) return state.SkipWithError(folder.status().ToString().c_str());
   SceneParams params = Params();
   params.rest_distance_m = 0.6;  // as the demo's
   Identities all;
-  for (int seed = 1; seed <= count; ++seed) {
-    Hider hider(static_cast<unsigned>(seed));
+  for (unsigned seed = 1; seed <= count; ++seed) {
+    Hider hider(seed);
     all += IdentitiesIn(folder->frames, params, [&](Frame& frame) { hider.Hide(frame); });
   }
   Count(all, "_drive", state);
@@ -123,13 +128,15 @@ void OnTheDrive(benchmark::State& state, const std::string& path, int count) {
 void Register(const Effort& effort) {
   Effort once = effort;
   once.repetitions = 1;
-  const int count = effort.quick ? 2 : 20;
-  Add("reidentification", once, [=](auto& state) {
-    for (auto _ : state) InSimulations(state, count, false);
-  });
-  Add("reidentification_table1", once, [=](auto& state) {
-    for (auto _ : state) InSimulations(state, count, true);
-  });
+  const unsigned count = effort.quick ? 2 : 20;
+  const auto add = [&](const std::string& suffix, const Simulations& worlds) {
+    Add("reidentification" + suffix, once, [=](auto& state) {
+      for (auto _ : state) InSimulations(worlds, suffix, state);
+    });
+  };
+  add("", {.count = count});
+  add("_table1", {.count = count, .noise = SlamNoise::TableOne()});
+  add("_queues", {.scenario = "queues", .count = count});
   const auto path = DataPath("kitti0000_fov");
   if (!path) return;  // it has said so
   Add("reidentification_drive", once, [folder = *path, count](auto& state) {

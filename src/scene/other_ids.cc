@@ -101,15 +101,21 @@ bool IsRival(const Match& match, const MovingObject& other, const ObjectMap& obj
          SeenAgain(lost, other, params).has_value();
 }
 
+// Whether the new one fits another lost one as well that was seen later (an earlier one may be the
+// same as this: IsRival), or another new one fits the lost one; or, as in a chain of three the
+// first two go first, the lost one is new itself.
+bool IsContested(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects) {
+  const Time seen = objects.at(match.lost)->t_k();
+  return std::ranges::any_of(matches, [&](const Match& other) {
+    if (other.young == match.lost) return true;
+    if (other.lost == match.lost) return other.young != match.young;
+    return other.young == match.young && objects.at(other.lost)->t_k() >= seen;
+  });
+}
+
 bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects,
             const SceneObjects& dropped_lately, Time stamp, const SceneParams& params) {
-  const bool alone = std::ranges::count_if(matches, [&](const Match& other) {
-                       return other.lost == match.lost || other.young == match.young;
-                     }) == 1;
-  // In a chain of three the first two go first.
-  const bool lost_is_matched =
-      std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
-  if (!alone || lost_is_matched) return false;
+  if (IsContested(match, matches, objects)) return false;
   const auto is_rival = [&](const MovingObject& other) {
     return IsRival(match, other, objects, stamp, params);
   };

@@ -21,22 +21,28 @@ struct Lengths_m {
   double along, across, up;
 };
 
+// None of what was seen too briefly, nor of what stands still or does not go along its O's x or y:
+// its box lies askew then, for all that is known, and what is seen of it from one side looks as if
+// it were small both ways.
 std::optional<Lengths_m> LengthsOf(const MovingObject& object) {
   constexpr std::int64_t kFewestFrames = 3, kFewestVoxels = 20;
+  constexpr double kGoes_mps = 0.5, kAskew = 0.34;  // 20 degrees
   if (object.frames_seen < kFewestFrames || object.map_O.occupied_count() < kFewestVoxels ||
-      !object.velocity_O) {
+      !object.velocity_O || object.velocity_O->linear.norm() < kGoes_mps) {
     return std::nullopt;
   }
-  const Eigen::Array3d size_m = SeenSize_m(object).array() + object.map_O.grid().resolution_m();
-  const Eigen::Vector3d& way_O = object.velocity_O->linear;
+  const Eigen::Vector3d way_O = object.velocity_O->linear.normalized();
   const int along = std::abs(way_O.x()) >= std::abs(way_O.y()) ? 0 : 1;
+  if (std::hypot(way_O[1 - along], way_O.z()) > kAskew) return std::nullopt;
+  const Eigen::Array3d size_m = SeenSize_m(object).array() + object.map_O.grid().resolution_m();
   return Lengths_m{size_m[along], size_m[1 - along], size_m.z()};
 }
 
-// In two of three, as a view from one side tells no more; of what is seen from an end alone, and so
-// looks broad, nobody knows how long it is.
+// In two of three, as a view from one side tells no more, and of those by half, as it may show half
+// of them: no rival is ruled out by what a match is let pass with (see SeenAgain). Of what is seen
+// from an end alone, and so looks broad, nobody knows how long it is.
 bool AreAsLarge(const MovingObject& lost, const MovingObject& seen) {
-  constexpr double kAlike = 0.75, kBroad = 2;
+  constexpr double kAlike = 0.5, kBroad = 2;
   const auto a = LengthsOf(lost), b = LengthsOf(seen);
   if (!a || !b) return true;
   const auto alike = [](double x, double y) { return std::min(x, y) >= kAlike * std::max(x, y); };

@@ -33,8 +33,8 @@ bool WasLostBefore(const MovingObject& lost, const MovingObject& seen);
 // How far `seen`, where it was first seen, is from where `lost` was to be then, in metres; none if
 // it cannot be that one. It cannot
 // - if `lost` was seen since (WasLostBefore);
-// - if they are not alike in two of three lengths (along their way, across it, and up), and both
-//   were seen often enough to know; of what stands still O's x counts as the way;
+// - if they are not alike in two of three lengths (along their way, across it, and up), where both
+//   go along an axis of their O and were seen often enough to know;
 // - if `lost` may not have come to go as it does (MayComeToGo);
 // - if it is too far from all places where `lost` could be: it goes on at any one velocity between
 //   the one it had and that of `seen`, or at that of the two which is known.

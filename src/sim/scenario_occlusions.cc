@@ -2,16 +2,10 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/random.h"
-#include "sim/scenario_parts.h"
+#include "sim/behind_walls.h"
 
 namespace clearway {
 namespace {
-
-// The road runs along x in front of the sensor, which stands at y = 0; walls stand between them.
-constexpr double kWallsYM = 4.5;
-constexpr double kSensorHeightM = 1.93;
-constexpr std::size_t kFrames = 200;
 
 using MakeBody = Body (*)(ObjectId, Trajectory);
 
@@ -43,27 +37,18 @@ class Occlusions {
  private:
   static constexpr std::uint64_t kStream = std::uint64_t{1} << 61;
 
-  double Between(double low, double high) { return low + (high - low) * random_.Uniform(); }
-  bool Heads() { return random_.Uniform() < 0.5; }
+  double Between(double low, double high) { return clearway::Between(random_, low, high); }
 
   // One to each side, and one in the middle.
   void AddWalls() {
     for (const double x_m : {-8.0, 0.0, 8.0}) {
       const double width_m = Between(1.0, 5.0);
-      world_.Add(StaticBox("wall", PlacedAt(x_m + Between(-1.5, 1.5), kWallsYM, 1.45),
-                           {width_m, 0.3, 3.0}));
+      world_.Add(WallBefore(x_m + Between(-1.5, 1.5), width_m));
     }
   }
 
-  // Speeds up and slows down again and again.
   Drive DriveFrom(const Pose& T_W_B, double speed_mps) {
-    Drive drive{.T_W_B = T_W_B, .start_speed_mps = speed_mps, .legs = {}, .start = AtSeconds(0)};
-    for (double seconds = 0; seconds < 20;) {
-      const double lasts_s = Between(2, 5);
-      drive.legs.push_back({FromSeconds(lasts_s), speed_mps * Between(0.8, 1.2), 0});
-      seconds += lasts_s;
-    }
-    return drive;
+    return UnevenDrive(random_, T_W_B, speed_mps, 0.8, 1.2);
   }
 
   // Vehicles of all kinds behind each other, all at the same speed.
@@ -82,7 +67,7 @@ class Occlusions {
 
   // One that has that lane to itself.
   void AddAlone(const Kind& kind, double y_m, double slowest_mps, double fastest_mps) {
-    const bool along_x = Heads();
+    const bool along_x = Heads(random_);
     const double speed_mps = Between(slowest_mps, fastest_mps);
     // In sight for most of the time.
     const double x_m = (along_x ? -1 : 1) * Between(0.3, 0.8) * speed_mps * 20;
@@ -99,16 +84,7 @@ class Occlusions {
 }  // namespace
 
 SimulationSpec OcclusionsSpec(std::uint64_t seed) {
-  SpinningLidar lidar = SpinningLidar::With64Beams();
-  lidar.lowest_rad = -0.4;
-  lidar.highest_rad = 0.06;
-  SimulationSpec spec;
-  spec.name = "occlusions";
-  spec.world = Occlusions(seed).Make();
-  spec.sensor = lidar;
-  spec.sensor_trajectory = FixedPose{PlacedAt(0, 0, kSensorHeightM, std::numbers::pi / 2)};
-  spec.frame_count = kFrames;
-  return spec;
+  return BehindWalls("occlusions", Occlusions(seed).Make());
 }
 
 }  // namespace clearway

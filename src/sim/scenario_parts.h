@@ -17,6 +17,7 @@ SimulationSpec StreetSpec();
 SimulationSpec LabSpec();
 SimulationSpec SmallSpec();
 SimulationSpec OcclusionsSpec(std::uint64_t seed);
+SimulationSpec QueuesSpec(std::uint64_t seed);
 SimulationSpec ArticulatedSpec();
 
 // At x, y, z, turned to the left about z.

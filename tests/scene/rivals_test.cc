@@ -89,6 +89,15 @@ TEST_F(Rivals, AreThereBeyondTheHorizon) {
   }
 }
 
+// Of the tracks no more is left than their end: not where they were first seen.
+TEST_F(Rivals, AreThereThoughTheirHistoryIsShort) {
+  params_.history = std::chrono::milliseconds(300);
+  See({{0, 1.5, {{2, 0, 25}, {12, 60, 80}}}}, 80);
+  EXPECT_TRUE(Same(2, 12));
+  See({{0.75, 1.5, {{1, 0, 20}, {11, 74, 90}}}, {0, 1.5, {{2, 0, 25}, {12, 79, 90}}}}, 90);
+  EXPECT_EQ(joined_, 0u);
+}
+
 // The leader comes back just before it would have been dropped.
 TEST_F(Rivals, AreThereThoughTheyWereDroppedMeanwhile) {
   params_.object_lifetime = std::chrono::seconds(3);
@@ -115,6 +124,13 @@ TEST_F(Rivals, AreNotTheSameOneAsItWasBefore) {
   See({{0, 1.5, {{1, 0, 20}, {2, 75, 90}, {3, 100, 115}}}}, 115);
   EXPECT_FALSE(Same(1, 2));
   EXPECT_TRUE(Same(2, 3));
+}
+
+// 2 is seen too briefly to be known as 1, and so 3 could be both; but 2 could be 1, too.
+TEST_F(Rivals, AreNotEarlierSightsOfTheSameOne) {
+  See({{0, 1.5, {{1, 0, 25}, {2, 40, 42}, {3, 55, 75}}}}, 75);
+  EXPECT_TRUE(Same(2, 3));
+  EXPECT_FALSE(Same(1, 3));
 }
 
 TEST_F(Rivals, AreNotThoseWhoGoAnotherWay) {

@@ -76,8 +76,8 @@ std::map<ObjectId, std::size_t> MostPoints(const Simulation& simulation, std::si
 }
 
 TEST(ScenariosTest, EveryNameMakesFrames) {
-  EXPECT_THAT(ScenarioNames(),
-              ElementsAre("crossing", "street", "lab", "small", "occlusions", "articulated"));
+  EXPECT_THAT(ScenarioNames(), ElementsAre("crossing", "street", "lab", "small", "occlusions",
+                                           "queues", "articulated"));
   for (const std::string& name : ScenarioNames()) {
     const auto dut = MakeScenario(name);
     ASSERT_TRUE(dut.ok());
@@ -219,15 +219,19 @@ TEST(LabTest, TheCameraStaysInFreeAir) {
   }
 }
 
-TEST(OcclusionsTest, NobodyRunsIntoAnything) {
+class HiddenTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Worlds, HiddenTest, testing::Values("occlusions", "queues"),
+                         [](const auto& world) { return std::string(world.param); });
+
+TEST_P(HiddenTest, NobodyRunsIntoAnything) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    ExpectNoAccidents(*MakeScenario("occlusions", {.seed = seed}), 60);
+    ExpectNoAccidents(*MakeScenario(GetParam(), {.seed = seed}), 60);
   }
 }
 
-TEST(OcclusionsTest, EverySeedIsAnotherWorld) {
+TEST_P(HiddenTest, EverySeedIsAnotherWorld) {
   const auto place = [](std::uint64_t seed) {
-    const auto simulation = MakeScenario("occlusions", {.seed = seed});
+    const auto simulation = MakeScenario(GetParam(), {.seed = seed});
     return simulation->world().T_W_B(1, simulation->StampOf(0))->translation;
   };
   EXPECT_EQ(place(1), place(1));

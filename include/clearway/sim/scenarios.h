@@ -13,7 +13,7 @@ namespace clearway {
 
 // Choices that every scenario offers. A plain value; default: exact, at full size.
 struct ScenarioOptions {
-  std::uint64_t seed = 1;  // of all noise, and of the world of `occlusions`
+  std::uint64_t seed = 1;  // of all noise, and of the worlds `occlusions` and `queues`
   SlamNoise noise = {};
   double range_noise_m = 0;
   ObjectReport report = ObjectReport::kMotions;
@@ -33,10 +33,11 @@ struct ScenarioOptions {
 // small: a box, a cylinder and a wedge before a wall, seen by a small LiDAR: quick, for tests.
 // occlusions: traffic, cyclists and pedestrians who go out of a LiDAR's sight behind walls and each
 //   other, 20 s at 10 Hz; another world for each seed. 0.1 m voxels.
+// queues: people and cyclists who look alike, one close behind the other, before that LiDAR;
+//   another world for each seed, too. 0.1 m voxels.
 // articulated: a truck whose trailer follows round a bend, cyclists who pedal, an excavator that
-// swings
-//   its boom, each part an object of its own that is told to be a part; a LiDAR that stands, 12 s
-//   at 10 Hz. 0.1 m voxels.
+//   swings its boom, each part an object of its own that is told to be a part; a LiDAR that stands,
+//   12 s at 10 Hz. 0.1 m voxels.
 std::vector<std::string> ScenarioNames();
 
 // NOT_FOUND for an unknown name, listing the known ones; INVALID_ARGUMENT naming the option.
