@@ -178,8 +178,9 @@ std::vector<Setting> SceneSettings() {
                        "mean error of the sensor's poses; not 0: scans are registered to the map"),
       CLEARWAY_SETTING("scene.sensor_pose_error_rad", scene.sensor_pose_error_rad,
                        "the same of their angles"),
-      CLEARWAY_SETTING("scene.reidentify", scene.reidentify,
-                       "lost objects are known again under new ids; needs a true object_pose_error_m"),
+      CLEARWAY_SETTING(
+          "scene.reidentify", scene.reidentify,
+          "lost objects are known again under new ids; needs a true object_pose_error_m"),
       CLEARWAY_SETTING("scene.filter_labels", scene.filter_labels,
                        "whether labels that the points around contradict are left out"),
       CLEARWAY_SETTING("scene.dynamic_life_s", scene.dynamic_life,
