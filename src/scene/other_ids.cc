@@ -73,6 +73,18 @@ std::vector<Match> FindMatches(const ObjectMap& objects, Time stamp, const Scene
   return matches;
 }
 
+// Whether the other was seen while the lost one was out of sight before, between two sights of it
+// that were joined since, and where that one must have been then: no two are in one place.
+bool IsSightBetween(const MovingObject& other, const MovingObject& lost) {
+  const auto after = std::ranges::find_if(
+      lost.history, [&](const StampedPose& pose) { return pose.stamp >= other.first_seen; });
+  if (after == lost.history.begin() || after == lost.history.end()) return false;
+  if (after->stamp <= other.t_k()) return false;
+  const Eigen::Vector3d center_W = other.history.back().T_W_O * other.observed_box_O.Center();
+  const Pose T_W_L = PredictPose(lost, other.t_k(), Duration::max()).T_W_O;
+  return lost.observed_box_O.Contains(Inverse(T_W_L) * center_W);
+}
+
 // Whether an object that may be the young one as well is likely to be the lost one, too: where it
 // was to be then, another one cannot have been; or, as the young one, it is much farther off.
 bool IsLostOne(const Match& match, double as_young_m, double as_lost_m, const ObjectMap& objects,
@@ -92,6 +104,7 @@ bool IsRival(const Match& match, const MovingObject& other, const ObjectMap& obj
   const MovingObject& young = *objects.at(match.young);
   const auto since_m = DistanceIfSame_m(lost, other, params);
   if (const auto as_young_m = DistanceIfSame_m(other, young, params)) {
+    if (IsSightBetween(other, lost)) return false;
     const auto as_lost_m = since_m ? since_m : DistanceIfSame_m(other, lost, params);
     return !as_lost_m || !IsLostOne(match, *as_young_m, *as_lost_m, objects, params);
   }
@@ -101,21 +114,15 @@ bool IsRival(const Match& match, const MovingObject& other, const ObjectMap& obj
          SeenAgain(lost, other, params).has_value();
 }
 
-// Whether the new one fits another lost one as well that was seen later (an earlier one may be the
-// same as this: IsRival), or another new one fits the lost one; or, as in a chain of three the
-// first two go first, the lost one is new itself.
-bool IsContested(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects) {
-  const Time seen = objects.at(match.lost)->t_k();
-  return std::ranges::any_of(matches, [&](const Match& other) {
-    if (other.young == match.lost) return true;
-    if (other.lost == match.lost) return other.young != match.young;
-    return other.young == match.young && objects.at(other.lost)->t_k() >= seen;
-  });
-}
-
 bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects,
             const SceneObjects& dropped_lately, Time stamp, const SceneParams& params) {
-  if (IsContested(match, matches, objects)) return false;
+  const bool alone = std::ranges::count_if(matches, [&](const Match& other) {
+                       return other.lost == match.lost || other.young == match.young;
+                     }) == 1;
+  // In a chain of three the first two go first.
+  const bool lost_is_matched =
+      std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
+  if (!alone || lost_is_matched) return false;
   const auto is_rival = [&](const MovingObject& other) {
     return IsRival(match, other, objects, stamp, params);
   };

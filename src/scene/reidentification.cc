@@ -34,9 +34,12 @@ bool NearOccupied(const VoxelMap& map, const Eigen::Vector3d& p) {
   return false;
 }
 
-// Whether so many of the points lie where the object was seen before, and hardly any beyond it.
-bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O) {
-  constexpr double kOnSurface = 0.5, kWithin = 0.99, kBeyond_voxels = 3;
+// Whether so many of the points lie where the object was seen before, and hardly any beyond it:
+// fewer yet where poses are off, as such maps are wide enough for much.
+bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O,
+          const SceneParams& params) {
+  constexpr double kOnSurface = 0.5, kBeyond_voxels = 3;
+  const double kWithin = params.object_pose_error_m > 0 ? 0.99 : 0.97;
   const double voxel_m = lost.map_O.grid().resolution_m();
   const Aabb box_O = lost.observed_box_O.Padded(kBeyond_voxels * voxel_m);
   std::size_t within = 0, near = 0;
@@ -49,9 +52,9 @@ bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O
          static_cast<double>(near) >= kOnSurface * all;
 }
 
-// Of a view from one side two of the three lengths can be told.
+// Of a view from one side two of the three lengths can be told, and the height nearly always.
 bool IsAsLarge(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O) {
-  constexpr double kLeast = 0.6;
+  constexpr double kLeast = 0.6, kLeastUp = 0.75;
   const double voxel_m = lost.map_O.grid().resolution_m();
   Aabb seen_O;
   for (const Eigen::Vector3d& p_O : points_O) seen_O.Extend(p_O);
@@ -59,14 +62,21 @@ bool IsAsLarge(const MovingObject& lost, const std::vector<Eigen::Vector3d>& poi
   const Eigen::Vector3d known = lost.observed_box_O.max - lost.observed_box_O.min;
   std::array<double, 3> shares{};
   for (int i = 0; i < 3; ++i) shares[i] = (seen[i] + voxel_m) / std::max(known[i], voxel_m);
+  const double up = shares[2];
   std::ranges::sort(shares);
-  return shares[1] >= kLeast;
+  return shares[1] >= kLeast && up >= kLeastUp;
 }
 
 bool GoesAlike(const MovingObject& lost, const Pose& T_W_L, const MovingObject& young,
                double unseen_s) {
   const auto before_mps = VelocityAt_mps(lost, T_W_L), now_mps = VelocityNow_mps(young);
   return before_mps && now_mps && MayComeToGo(*before_mps, *now_mps, unseen_s);
+}
+
+// For less than what velocities are told by: whoever passes where it was to be could be it.
+bool WasGlimpsed(const MovingObject& lost) {
+  constexpr Duration kLongest = std::chrono::milliseconds(800);
+  return lost.last_seen - lost.first_seen < kLongest;
 }
 
 // None if poses, and with them velocities (of about a second), are off by so much that another one
@@ -138,7 +148,7 @@ MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& 
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params) {
   constexpr std::int64_t kFewest = 20;  // voxels
-  if (young.map_O.occupied_count() < kFewest) return std::nullopt;
+  if (WasGlimpsed(lost) || young.map_O.occupied_count() < kFewest) return std::nullopt;
   const StampedPose& first = FirstPose(young);
   const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
@@ -157,7 +167,7 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   std::vector<Eigen::Vector3d> points_L = points_Y;
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;
-  if (!Fits(lost, points_L) || !IsAsLarge(lost, points_L)) return std::nullopt;
+  if (!Fits(lost, points_L, params) || !IsAsLarge(lost, points_L)) return std::nullopt;
   return T_Y_L;
 }
 

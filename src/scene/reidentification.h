@@ -12,8 +12,8 @@ namespace clearway {
 // Where the frame L of `lost` is in the frame Y of `young` (T_Y_L) if that is the same object:
 // where `young` was first seen its voxels fit those of `lost`, near where that one was to be then;
 // both are about as large, as far as `young` was seen; and both go about alike. None if `young` may
-// be another one, or has been seen too little to tell. `lost` must not have been seen since `young`
-// was first.
+// be another one, or one of them has been seen too little to tell. `lost` must not have been seen
+// since `young` was first.
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params);
 

@@ -52,6 +52,18 @@ bool AreAsLarge(const MovingObject& lost, const MovingObject& seen) {
          2;
 }
 
+// Where it was first seen: over the first second, however it goes by now.
+std::optional<Eigen::Vector3d> VelocityAtFirst_mps(const MovingObject& seen) {
+  constexpr Duration kOver = std::chrono::seconds(1);
+  const StampedPose& first = FirstPose(seen);
+  const auto later = std::ranges::find_if(
+      seen.history, [&](const StampedPose& pose) { return pose.stamp >= first.stamp + kOver; });
+  const auto now_mps = VelocityNow_mps(seen);
+  if (!now_mps || later == seen.history.end()) return now_mps;
+  const Eigen::Vector3d center_O = seen.observed_box_O.Center();
+  return (later->T_W_O * center_O - first.T_W_O * center_O) / ToSeconds(later->stamp - first.stamp);
+}
+
 double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
@@ -115,7 +127,7 @@ std::optional<double> DistanceIfSame_m(const MovingObject& lost, const MovingObj
   const StampedPose& first = FirstPose(seen);
   const double unseen_s = ToSeconds(first.stamp - lost.t_k());
   const Pose T_W_L = PredictPose(lost, first.stamp, Duration::max()).T_W_O;
-  const auto lost_mps = VelocityAt_mps(lost, T_W_L), seen_mps = VelocityNow_mps(seen);
+  const auto lost_mps = VelocityAt_mps(lost, T_W_L), seen_mps = VelocityAtFirst_mps(seen);
   if (lost_mps && seen_mps && !MayComeToGo(*lost_mps, *seen_mps, unseen_s)) return std::nullopt;
 
   const double speed_mps = std::max(lost.SpeedMps(), seen_mps ? seen_mps->norm() : 0.0);

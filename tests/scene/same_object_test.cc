@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "clearway/scene/scene_builder.h"
@@ -41,7 +42,8 @@ class SameObject : public testing::Test {
       };
       Frame frame = FrameAt(now_s);
       AddObject(frame, id, carried_by(now_s) * T_W_B, points_B);
-      if (k > 0) frame.motions.push_back({id, carried_by(kPeriod_s), At(now_s - kPeriod_s)});
+      if (!known_.insert(id).second)
+        frame.motions.push_back({id, carried_by(kPeriod_s), At(now_s - kPeriod_s)});
       ASSERT_TRUE(dut_.Apply(frame).ok());
     }
   }
@@ -53,6 +55,7 @@ class SameObject : public testing::Test {
   const std::vector<Eigen::Vector3d> car_ = BoxSurface(kCar_m, 0.08);
 
  private:
+  std::set<ObjectId> known_;
   ThreadPool pool_{1};
   SceneBuilder dut_{{}, {}, pool_};
 };
@@ -95,6 +98,15 @@ TEST_F(SameObject, MayBeSeenInPart) {
   auto points_B = pedestrian;
   std::erase_if(points_B, [](const auto& p) { return p.x() > 0 || p.y() > 0; });
   See(2, {}, 1.5, 2, points_B);
+  EXPECT_TRUE(MayBeTheSame());
+}
+
+// How it goes later says nothing of where it was when it was first seen.
+TEST_F(SameObject, MayBeTheSameThoughItGoesFasterByNow) {
+  const auto pedestrian = BoxSurface({0.6, 0.6, 1.75}, 0.06);
+  See(1, {}, 1.5, 0, pedestrian);
+  See(2, Pose::Translation(0.54, 0, 0), 0.9, 5, pedestrian);  // as if it had gone so all the time
+  See(2, Pose::Translation(-3, 0, 0), 1.5, 6, pedestrian);
   EXPECT_TRUE(MayBeTheSame());
 }
 
