@@ -88,7 +88,8 @@ AT_MOST = {
 }
 # So many times another number of the same run.
 AT_MOST_TIMES = {
-    f"prediction_{what}_oxts_mended_1s_m": (2, f"prediction_{what}_1s_m")
+    f"prediction_{what}{poses}_1s_m": (2, f"prediction_{what}_1s_m")
+    for poses in ("_oxts", "_oxts_mended")
     for what in ("van", "cyclist", "parked")
 }
 

@@ -109,7 +109,7 @@ TEST(SourceFlags, AreAboutWhatTheSimulationHas) {
 TEST(SourceFlags, HelpTellsWhatTheyAreFor) {
   const std::string help = With({"replay"}, {"--help"}).out;
   for (const char* told : {"Simulator (of sim:NAME alone)", "Of a TUM RGB-D sequence",
-                           "any source but recordings", "world of sim:occlusions"}) {
+                           "any source but recordings", "worlds of sim:occlusions"}) {
     EXPECT_THAT(help, HasSubstr(told));
   }
 }
