@@ -52,8 +52,10 @@ bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O
          static_cast<double>(near) >= kOnSurface * all;
 }
 
-// Of a view from one side two of the three lengths can be told, and the height nearly always.
-bool IsAsLarge(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O) {
+// Of a view from one side two of the three lengths can be told, and the height nearly always: as it
+// stands in its own frame, for registering it may tilt it.
+bool IsAsLarge(const MovingObject& lost, const MovingObject& young,
+               const std::vector<Eigen::Vector3d>& points_O) {
   constexpr double kLeast = 0.6, kLeastUp = 0.75;
   const double voxel_m = lost.map_O.grid().resolution_m();
   Aabb seen_O;
@@ -62,7 +64,8 @@ bool IsAsLarge(const MovingObject& lost, const std::vector<Eigen::Vector3d>& poi
   const Eigen::Vector3d known = lost.observed_box_O.max - lost.observed_box_O.min;
   std::array<double, 3> shares{};
   for (int i = 0; i < 3; ++i) shares[i] = (seen[i] + voxel_m) / std::max(known[i], voxel_m);
-  const double up = shares[2];
+  const double height_m = young.observed_box_O.max.z() - young.observed_box_O.min.z();
+  const double up = (height_m + voxel_m) / std::max(known.z(), voxel_m);
   std::ranges::sort(shares);
   return shares[1] >= kLeast && up >= kLeastUp;
 }
@@ -167,7 +170,7 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   std::vector<Eigen::Vector3d> points_L = points_Y;
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;
-  if (!Fits(lost, points_L, params) || !IsAsLarge(lost, points_L)) return std::nullopt;
+  if (!Fits(lost, points_L, params) || !IsAsLarge(lost, young, points_L)) return std::nullopt;
   return T_Y_L;
 }
 
