@@ -35,7 +35,7 @@ bool WasLostBefore(const MovingObject& lost, const MovingObject& seen);
 // - if `lost` was seen since (WasLostBefore);
 // - if they are not alike in two of three lengths (along their way, across it, and up), where both
 //   go along an axis of their O and were seen often enough to know;
-// - if `lost` may not have come to go as it did in its first second (MayComeToGo);
+// - if `lost` may not have come to go as `seen` did in its first second (MayComeToGo);
 // - if it is too far from all places where `lost` could be: it goes on at any one velocity between
 //   the one it had and that of `seen` then, or at that of the two which is known.
 // There is no horizon, and what is not known rules nothing out.
