@@ -9,6 +9,11 @@
 
 namespace clearway {
 
+struct Kind {
+  Body (*make)(ObjectId, Trajectory);
+  double height_m;  // of its origin above the ground
+};
+
 double Between(Random& random, double low, double high);
 bool Heads(Random& random);
 

@@ -1,22 +1,15 @@
 #include <array>
 #include <numbers>
-#include <vector>
 
 #include "sim/behind_walls.h"
 
 namespace clearway {
 namespace {
 
-using MakeBody = Body (*)(ObjectId, Trajectory);
-
-struct Kind {
-  MakeBody make;
-  double height_m, length_m;
-};
 constexpr std::array<Kind, 3> kVehicles = {
-    {{Car, kCarHeightM, 4.4}, {Hatchback, kCarHeightM, 4.0}, {Van, kVanHeightM, 5.2}}};
-constexpr Kind kCyclist = {Cyclist, kCyclistHeightM, 1.7};
-constexpr Kind kPedestrian = {Pedestrian, kPedestrianHeightM, 0.6};
+    {{Car, kCarHeightM}, {Hatchback, kCarHeightM}, {Van, kVanHeightM}}};
+constexpr Kind kCyclist = {Cyclist, kCyclistHeightM};
+constexpr Kind kPedestrian = {Pedestrian, kPedestrianHeightM};
 
 class Occlusions {
  public:

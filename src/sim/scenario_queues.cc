@@ -18,18 +18,15 @@ class Queues {
     world_.Add(Ground(0, 0, 240));
     world_.Add(StaticBox("houses", PlacedAt(0, 23.03, 3.9), {110, 6, 8}));
     AddWalls();
-    for (const double y_m : {5.6, 6.8, 8.0}) AddQueue(y_m);
-    AddQueue(9.4, 2.5, 4, {Cyclist, kCyclistHeightM, 1.9});
+    for (const double y_m : {5.6, 6.8, 8.0}) {
+      AddQueue({Pedestrian, kPedestrianHeightM}, 0.65, y_m, 1, 2);
+    }
+    AddQueue({Cyclist, kCyclistHeightM}, 1.9, 9.4, 2.5, 4);
     return std::move(world_);
   }
 
  private:
   static constexpr std::uint64_t kStream = std::uint64_t{3} << 60;
-
-  struct Kind {
-    Body (*make)(ObjectId, Trajectory);
-    double height_m, nearest_m;  // from one's middle to the next one's
-  };
 
   double Between(double low, double high) { return clearway::Between(random_, low, high); }
 
@@ -42,9 +39,10 @@ class Queues {
     }
   }
 
-  // All speed up at once, wherever they are, so that their distances stay.
-  void AddQueue(double y_m, double slowest_mps = 1, double fastest_mps = 2,
-                const Kind& kind = {Pedestrian, kPedestrianHeightM, 0.65}) {
+  // All speed up at once, wherever they are, so that their distances stay: at least `nearest_m`
+  // from one's middle to the next one's.
+  void AddQueue(const Kind& kind, double nearest_m, double y_m, double slowest_mps,
+                double fastest_mps) {
     const double sign = Heads(random_) ? 1 : -1, yaw_rad = sign > 0 ? 0 : std::numbers::pi;
     const double speed_mps = Between(slowest_mps, fastest_mps);
     const Drive leader =
@@ -55,7 +53,7 @@ class Queues {
       Drive drive = leader;
       drive.T_W_B.translation.x() = sign * x_m;
       world_.Add(kind.make(next_id_++, drive));
-      x_m -= kind.nearest_m * Between(1, 2);
+      x_m -= nearest_m * Between(1, 2);
     }
   }
 
