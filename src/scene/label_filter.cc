@@ -6,6 +6,7 @@
 #include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
 #include "scene/direction_grid.h"
+#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {
@@ -111,9 +112,7 @@ Cluster TakeCluster(VoxelKey start, PointCounts& counts) {
   take(start);
   for (std::size_t next = 0; next < cluster.cubes.size(); ++next) {
     const VoxelKey key = cluster.cubes[next];
-    for (int i = 0; i < 27; ++i) {
-      take({key.x + i % 3 - 1, key.y + i / 3 % 3 - 1, key.z + i / 9 - 1});
-    }
+    for (const VoxelKey near : WithNeighbours(key)) take(near);
   }
   return cluster;
 }

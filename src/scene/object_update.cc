@@ -8,6 +8,7 @@
 #include "scene/mended_pose.h"
 #include "scene/position_bound.h"
 #include "scene/prospect.h"
+#include "scene/rays_near.h"
 
 namespace clearway {
 namespace {
@@ -54,37 +55,13 @@ PositionBound FirstBound(const MovingObject& object, const SceneParams& params) 
   return BoundOf({&last, 1}, last.stamp, {}, *object.solid, params);
 }
 
-// The rays of the cloud, in O, cut to the part that lies near the object's map, so that only its
-// surroundings are cleared.
-struct ClippedRays {
-  std::vector<Eigen::Vector3f> ends_O, origins_O;
-  std::vector<RayEnd> kinds;
-};
-
-ClippedRays RaysNear(const MovingObject& object, const LabelledCloud& cloud,
-                     std::span<const std::uint32_t> points, const SceneParams& params) {
+// What was seen of it before, and now.
+Aabb BoxWith(const MovingObject& object, const LabelledCloud& cloud,
+             std::span<const std::uint32_t> points) {
   const Pose T_O_W = Inverse(object.history.back().T_W_O);
   Aabb box_O = object.observed_box_O;
-  for (std::uint32_t i : points) box_O.Extend(T_O_W * cloud.ends_W[i].cast<double>());
-  box_O = box_O.Padded(params.object_resolution_m);
-  const VoxelGrid grid(params.resolution_m);
-
-  ClippedRays rays;
-  for (std::size_t i = 0; i < cloud.ends_W.size(); ++i) {
-    const Eigen::Vector3f& origin_W =
-        cloud.origins_W.size() == 1 ? cloud.origins_W[0] : cloud.origins_W[i];
-    const LimitedRay limited = LimitRay(grid, params.rays, origin_W, cloud.ends_W[i]);
-    const Eigen::Vector3d origin_O = T_O_W * origin_W.cast<double>();
-    const Eigen::Vector3d end_O = T_O_W * limited.end.cast<double>();
-    const auto [begin, end] = Clip(box_O, origin_O, end_O - origin_O, {0, 1});
-    if (begin > end) continue;
-    const bool returned = end == 1 && limited.within_range && cloud.kinds[i] != RayEnd::kClear;
-    rays.origins_O.push_back((origin_O + begin * (end_O - origin_O)).cast<float>());
-    rays.ends_O.push_back((origin_O + end * (end_O - origin_O)).cast<float>());
-    // The object's own hits are added exactly, by the caller.
-    rays.kinds.push_back(returned ? RayEnd::kBlock : RayEnd::kClear);
-  }
-  return rays;
+  for (const std::uint32_t i : points) box_O.Extend(T_O_W * cloud.ends_W[i].cast<double>());
+  return box_O;
 }
 
 // Where O begins: its voxels are then W's moved by a quarter, however a wrong label or two moves
@@ -176,10 +153,11 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
   VoxelMap map_O = object.map_O;
   ScanUpdate update;
   if (params.clear_objects_by_rays) {
-    const ClippedRays rays = RaysNear(object, cloud, points, params);
-    const RayCloud cloud_O{rays.ends_O, rays.kinds, rays.origins_O};
+    // Only its surroundings are cleared, and its own hits are added exactly, below.
+    const Aabb box_O = BoxWith(object, cloud, points).Padded(params.object_resolution_m);
+    const ClippedRays rays = RaysWithin(box_O, object.history.back().T_W_O, cloud, params);
     // Rays that are too many clear nothing: only an object of some kilometres has them.
-    update = RayCaster(pool).Cast(map_O.grid(), cloud_O, {}).value_or(ScanUpdate());
+    update = RayCaster(pool).Cast(map_O.grid(), rays.Cloud(), {}).value_or(ScanUpdate());
   }
   for (std::uint32_t i : points) {
     const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();

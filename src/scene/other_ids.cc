@@ -8,6 +8,7 @@
 
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
+#include "scene/seen_through.h"
 
 namespace clearway {
 namespace {
@@ -187,11 +188,17 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 }
 
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const SceneParams& params, ThreadPool& pool) {
+                          const LabelledCloud& cloud, const SceneParams& params, ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
+  const auto is_seen_through = [&](const Match& match) {
+    const MovingObject& young = *objects.at(match.young);
+    return young.last_seen == stamp &&
+           WouldBeSeenThrough(*objects.at(match.lost), young, match.T_Y_L, cloud, params, pool);
+  };
   std::vector<Match> sure;
   std::ranges::copy_if(matches, std::back_inserter(sure), [&](const Match& match) {
-    return IsSure(match, matches, objects, dropped_lately, stamp, params);
+    return IsSure(match, matches, objects, dropped_lately, stamp, params) &&
+           !is_seen_through(match);
   });
   for (const Match& match : sure) {
     const MovingObject& lost = *objects.at(match.lost);

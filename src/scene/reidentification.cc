@@ -8,6 +8,7 @@
 #include "scene/position_bound.h"
 #include "scene/same_object.h"
 #include "scene/view_registration.h"
+#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {
@@ -21,19 +22,6 @@ std::vector<Eigen::Vector3d> OccupiedCenters(const VoxelMap& map) {
   return centers;
 }
 
-// Whether a voxel is occupied that touches the point's.
-bool NearOccupied(const VoxelMap& map, const Eigen::Vector3d& p) {
-  const VoxelKey at = map.grid().KeyOf(p);
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        if (map.State({at.x + x, at.y + y, at.z + z}) == VoxelState::kOccupied) return true;
-      }
-    }
-  }
-  return false;
-}
-
 // Whether so many of the points lie where the object was seen before, and hardly any beyond it:
 // fewer yet where poses are off, as such maps are wide enough for much.
 bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O,
@@ -45,7 +33,7 @@ bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O
   std::size_t within = 0, near = 0;
   for (const Eigen::Vector3d& p_O : points_O) {
     within += box_O.Contains(p_O);
-    near += lost.map_O.grid().Addressable(p_O) && NearOccupied(lost.map_O, p_O);
+    near += NearOccupied(lost.map_O, p_O);
   }
   const auto all = static_cast<double>(points_O.size());
   return static_cast<double>(within) >= kWithin * all &&

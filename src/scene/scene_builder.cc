@@ -123,7 +123,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
     dropped_lately =
         DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
     report.objects_reidentified =
-        JoinSeenAgain(objects, dropped_lately, frame.stamp, scene_.params, *pool_);
+        JoinSeenAgain(objects, dropped_lately, frame.stamp, cloud, scene_.params, *pool_);
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckSize(static_map_W, objects, limits_); !status.ok()) return status;

@@ -1,0 +1,23 @@
+// The rays of a frame that pass near an object.
+#pragma once
+
+#include <vector>
+
+#include "clearway/scene/moving_object.h"
+#include "scene/labelled_cloud.h"
+
+namespace clearway {
+
+// In O, cut to the part that lies in a box.
+struct ClippedRays {
+  std::vector<Eigen::Vector3f> ends_O, origins_O;
+  std::vector<RayEnd> kinds;  // kBlock where something is in the box, kClear at its border
+
+  RayCloud Cloud() const { return {ends_O, kinds, origins_O}; }
+};
+
+// With O at that pose.
+ClippedRays RaysWithin(const Aabb& box_O, const Pose& T_W_O, const LabelledCloud& cloud,
+                       const SceneParams& params);
+
+}  // namespace clearway

@@ -1,0 +1,125 @@
+// Nobody is known again as one that what lies behind would be seen through.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "clearway/scene/scene_builder.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::AddPoint;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+
+// What is seen of a road user, x forward.
+struct Shape {
+  std::vector<Aabb> boxes_B;
+};
+const Aabb kUpright{{-0.25, -0.2, -0.9}, {0.25, 0.2, 0.85}};
+const Shape kPedestrian{{kUpright}};
+const Shape kCyclist{{kUpright, {{-0.85, -0.2, -0.9}, {0.85, 0.2, 0}}}};
+const Shape kRearOfCyclist{
+    {{{-0.85, -0.2, -0.9}, {0, 0.2, 0}}, {{-0.25, -0.2, 0}, {0, 0.2, 0.85}}}};
+
+// Goes along x, before a house. The sensor is at the world's origin.
+class SeenThrough : public testing::Test {
+ protected:
+  SeenThrough() {
+    params_.motion = MotionModel::kTrack;
+    params_.reidentify = true;
+    dut_.emplace(params_, FrameLimits{}, pool_);
+  }
+
+  void See(ObjectId id, const Shape& shape, int from, int until) {
+    for (int k = from; k < until; ++k) {
+      const Pose T_W_B = PoseAt(k);
+      Frame frame = FrameAt(k * kPeriod_s);
+      for (const Aabb& box_B : shape.boxes_B) {
+        AddObject(frame, id, T_W_B * Pose{.translation = box_B.Center()},
+                  BoxSurface(box_B.max - box_B.min, 0.06));
+      }
+      if (k > from) {
+        frame.motions.push_back({id, T_W_B * Inverse(PoseAt(k - 1)), At((k - 1) * kPeriod_s)});
+      }
+      AddBehind(shape, T_W_B, frame);
+      ASSERT_TRUE(dut_->Apply(frame).ok());
+    }
+  }
+  bool Same(ObjectId a, ObjectId b) {
+    const ScenePtr scene = dut_->Publish();
+    return scene->FindObject(a) != nullptr && scene->FindObject(a) == scene->FindObject(b);
+  }
+  void LoseAndSee(const Shape& lost, const Shape& young) {
+    See(1, lost, 0, 20);
+    See(2, young, 30, 50);
+  }
+
+  bool has_house_ = true;
+  // A wall before it, from so far ahead of its middle on.
+  std::optional<double> wall_from_m_;
+
+ private:
+  static constexpr double kPeriod_s = 0.1, kLaneM = 6, kWallM = 4, kHouseM = 9;
+
+  static Pose PoseAt(int k) { return Pose::Translation(0.15 * k - 3, kLaneM, 0); }
+
+  // Of the house, what the sensor sees beside the object and the wall; and that wall.
+  void AddBehind(const Shape& shape, const Pose& T_W_B, Frame& frame) const {
+    for (double x = -8; x < 8; x += 0.1) {
+      for (double z = -2; z < 2; z += 0.1) {
+        const Eigen::Vector3d p_W(x, kHouseM, z);
+        const Eigen::Vector3d at_wall_W = p_W * kWallM / kHouseM;
+        const double ahead_m = (p_W * kLaneM / kHouseM - T_W_B.translation).x();
+        if (wall_from_m_ && ahead_m > *wall_from_m_) {
+          AddPoint(frame, kStaticLabel, at_wall_W);
+        } else if (has_house_ && !Hides(shape, T_W_B, p_W)) {
+          AddPoint(frame, kStaticLabel, p_W);
+        }
+      }
+    }
+  }
+  static bool Hides(const Shape& shape, const Pose& T_W_B, const Eigen::Vector3d& p_W) {
+    const Pose T_B_W = Inverse(T_W_B);
+    const Eigen::Vector3d sensor_B = T_B_W.translation;
+    return std::ranges::any_of(shape.boxes_B, [&](const Aabb& box_B) {
+      const auto [begin, end] = Clip(box_B, sensor_B, T_B_W * p_W - sensor_B, {0, 1});
+      return begin <= end;
+    });
+  }
+
+  SceneParams params_;
+  ThreadPool pool_{1};
+  std::optional<SceneBuilder> dut_;
+};
+
+TEST_F(SeenThrough, IsNotTheOneThatWasLost) {
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_FALSE(Same(1, 2));
+}
+
+TEST_F(SeenThrough, IsNobodyWhoIsThere) {
+  LoseAndSee(kCyclist, kCyclist);
+  EXPECT_TRUE(Same(1, 2));
+}
+
+// Its front is still behind the wall.
+TEST_F(SeenThrough, IsNobodyOfWhomThereIsNoRay) {
+  wall_from_m_ = 0;
+  LoseAndSee(kCyclist, kRearOfCyclist);
+  EXPECT_TRUE(Same(1, 2));
+}
+
+// Where nothing lies behind, nothing tells a pedestrian from the cyclist's middle.
+TEST_F(SeenThrough, IsNobodyBeforeTheOpenSky) {
+  has_house_ = false;
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_TRUE(Same(1, 2));
+}
+
+}  // namespace
+}  // namespace clearway
