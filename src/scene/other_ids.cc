@@ -8,13 +8,10 @@
 
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
-#include "scene/seen_through.h"
 
 namespace clearway {
 namespace {
 
-// What is known for longer is another object, or it would have been known again.
-constexpr Duration kYoung = std::chrono::seconds(2);
 // So long is waited before maps are joined, unless the new one goes out of sight before: of a first
 // glimpse (a flank without its ends) nobody knows where exactly it fits.
 constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
@@ -32,7 +29,7 @@ std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {
 }
 
 bool IsToBeJoined(const MovingObject& object, Time stamp) {
-  if (object.given() || stamp - object.first_seen > kYoung) return false;
+  if (object.given() || !IsYoung(object, stamp)) return false;
   const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
   return glimpsed == (stamp - object.last_seen > kOutOfSight);
 }
@@ -188,12 +185,12 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 }
 
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const LabelledCloud& cloud, const SceneParams& params, ThreadPool& pool) {
+                          const Surroundings& around_young, const SceneParams& params,
+                          ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
   const auto is_seen_through = [&](const Match& match) {
-    const MovingObject& young = *objects.at(match.young);
-    return young.last_seen == stamp &&
-           WouldBeSeenThrough(*objects.at(match.lost), young, match.T_Y_L, cloud, params, pool);
+    return WouldBeSeenThrough(*objects.at(match.lost), *objects.at(match.young), match.T_Y_L,
+                              around_young.at(match.young));
   };
   std::vector<Match> sure;
   std::ranges::copy_if(matches, std::back_inserter(sure), [&](const Match& match) {

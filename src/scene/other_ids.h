@@ -8,8 +8,8 @@
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/moving_object.h"
 #include "scene/given_object.h"
-#include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
+#include "scene/surroundings.h"
 
 namespace clearway {
 
@@ -30,9 +30,10 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 
 // Joins objects that were first seen not long ago to those they are, which were lost before.
 // Nothing is joined that could be one of two, dropped ones included, nor what is a part of
-// something or has parts, nor what the cloud of this frame shows to be another
-// (WouldBeSeenThrough). Returns how many were.
+// something or has parts, nor what is another by what was seen around it (see SeenAround; of
+// every young object). Returns how many were.
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const LabelledCloud& cloud, const SceneParams& params, ThreadPool& pool);
+                          const Surroundings& around_young, const SceneParams& params,
+                          ThreadPool& pool);
 
 }  // namespace clearway

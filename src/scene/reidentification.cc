@@ -136,25 +136,37 @@ MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& 
 
 }  // namespace
 
-std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
-                              const SceneParams& params) {
-  constexpr std::int64_t kFewest = 20;  // voxels
-  if (WasGlimpsed(lost) || young.map_O.occupied_count() < kFewest) return std::nullopt;
+std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const MovingObject& young,
+                                              const SceneParams& params) {
+  if (WasGlimpsed(lost)) return std::nullopt;
   const StampedPose& first = FirstPose(young);
   const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
-  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
-  if (!GoesAlike(lost, predicted.T_W_O, young, unseen_s)) return std::nullopt;
-
-  const std::optional<double> tolerance_m = Tolerance_m(lost, unseen_s, params);
+  const std::optional<double> tolerance_m =
+      Tolerance_m(lost, ToSeconds(first.stamp - lost.t_k()), params);
   if (!tolerance_m || !MayTouch(lost, predicted.T_W_O, young, first.T_W_O, *tolerance_m)) {
     return std::nullopt;
   }
+  return PlaceIfSame{predicted.T_W_O, *tolerance_m};
+}
+
+std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
+                              const SceneParams& params) {
+  constexpr std::int64_t kFewest = 20;  // voxels
+  if (young.map_O.occupied_count() < kFewest) return std::nullopt;
+  const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(lost, young, params);
+  if (!place) return std::nullopt;
+  const StampedPose& first = FirstPose(young);
+  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
+  if (!GoesAlike(lost, place->T_W_L, young, unseen_s)) return std::nullopt;
+
   const std::vector<Eigen::Vector3d> points_Y = OccupiedCenters(young.map_O);
-  const Pose T_Y_predicted = Inverse(first.T_W_O) * predicted.T_W_O;
-  const Pose T_Y_L = Registered(lost, points_Y, T_Y_predicted, *tolerance_m / 2, unseen_s);
+  const Pose T_Y_predicted = Inverse(first.T_W_O) * place->T_W_L;
+  const Pose T_Y_L = Registered(lost, points_Y, T_Y_predicted, place->tolerance_m / 2, unseen_s);
   const Eigen::Vector3d center_O = lost.observed_box_O.Center();
-  if ((T_Y_L * center_O - T_Y_predicted * center_O).norm() > *tolerance_m) return std::nullopt;
+  if ((T_Y_L * center_O - T_Y_predicted * center_O).norm() > place->tolerance_m) {
+    return std::nullopt;
+  }
   std::vector<Eigen::Vector3d> points_L = points_Y;
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;

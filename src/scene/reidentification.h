@@ -9,6 +9,22 @@
 
 namespace clearway {
 
+// What is known for longer is another object, or it would have been known again.
+inline constexpr Duration kYoung = std::chrono::seconds(2);
+inline bool IsYoung(const MovingObject& object, Time stamp) {
+  return stamp - object.first_seen <= kYoung;
+}
+
+struct PlaceIfSame {
+  Pose T_W_L;  // where `lost` was to be when `young` was first seen
+  double tolerance_m;
+};
+
+// None if `young` is nowhere near, whatever may be seen of it yet; if it could be another one like
+// it, as poses are off by so much; or if that is beyond the horizon.
+std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const MovingObject& young,
+                                              const SceneParams& params);
+
 // Where the frame L of `lost` is in the frame Y of `young` (T_Y_L) if that is the same object:
 // where `young` was first seen its voxels fit those of `lost`, near where that one was to be then;
 // both are about as large, as far as `young` was seen; and both go about alike. None if `young` may

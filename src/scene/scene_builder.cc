@@ -119,11 +119,13 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   report.voxels_dynamic = dynamic_W.voxels().size();
   UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   SceneObjects dropped_lately;
+  Surroundings around_young;
   if (scene_.params.reidentify) {
     dropped_lately =
         DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
+    around_young = SeenAround(around_young_, objects, cloud, frame.stamp, scene_.params, *pool_);
     report.objects_reidentified =
-        JoinSeenAgain(objects, dropped_lately, frame.stamp, cloud, scene_.params, *pool_);
+        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_young, scene_.params, *pool_);
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckSize(static_map_W, objects, limits_); !status.ok()) return status;
@@ -131,6 +133,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
   dropped_lately_ = std::move(dropped_lately);
+  around_young_ = std::move(around_young);
   scene_.objects.clear();
   for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
   scene_.stamp = frame.stamp;
@@ -218,6 +221,7 @@ void SceneBuilder::Reset() {
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
   dropped_lately_.clear();
+  around_young_.clear();
   corrections_ = WorldCorrections(scene_.params.history);
   has_frames_ = false;
   changed_ = true;

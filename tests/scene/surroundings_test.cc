@@ -32,22 +32,31 @@ class SeenThrough : public testing::Test {
   SeenThrough() {
     params_.motion = MotionModel::kTrack;
     params_.reidentify = true;
-    dut_.emplace(params_, FrameLimits{}, pool_);
+    BeginAnew();
   }
+  void BeginAnew() { dut_.emplace(params_, FrameLimits{}, pool_); }
 
   void See(ObjectId id, const Shape& shape, int from, int until) {
     for (int k = from; k < until; ++k) {
       const Pose T_W_B = PoseAt(k);
       Frame frame = FrameAt(k * kPeriod_s);
-      for (const Aabb& box_B : shape.boxes_B) {
-        AddObject(frame, id, T_W_B * Pose{.translation = box_B.Center()},
-                  BoxSurface(box_B.max - box_B.min, 0.06));
+      if (k != missed_) AddSight(id, shape, T_W_B, frame);
+      if (k > from && k != missed_) {
+        const int before = k - 1 == missed_ ? k - 2 : k - 1;
+        const Pose H_W = T_W_B * Inverse(PoseAt(before));
+        frame.motions.push_back({id, H_W, At(before * kPeriod_s)});
       }
-      if (k > from) {
-        frame.motions.push_back({id, T_W_B * Inverse(PoseAt(k - 1)), At((k - 1) * kPeriod_s)});
+      if (background_s_) {
+        ASSERT_TRUE(dut_->Apply(frame).ok());
+        frame = FrameAt(k * kPeriod_s + *background_s_);
       }
-      AddBehind(shape, T_W_B, frame);
+      if (k < sky_from_) AddBehind(shape, T_W_B, frame);
       ASSERT_TRUE(dut_->Apply(frame).ok());
+    }
+  }
+  void SeeNobody(int from, int until) {
+    for (int k = from; k < until; ++k) {
+      ASSERT_TRUE(dut_->Apply(FrameAt(k * kPeriod_s)).ok());
     }
   }
   bool Same(ObjectId a, ObjectId b) {
@@ -59,7 +68,12 @@ class SeenThrough : public testing::Test {
     See(2, young, 30, 50);
   }
 
-  bool has_house_ = true;
+  // From that frame on nothing lies behind.
+  int sky_from_ = 1000;
+  // In that frame the source misses the object.
+  int missed_ = -1;
+  // Static points come in another frame, so much later.
+  std::optional<double> background_s_;
   // A wall before it, from so far ahead of its middle on.
   std::optional<double> wall_from_m_;
 
@@ -68,6 +82,12 @@ class SeenThrough : public testing::Test {
 
   static Pose PoseAt(int k) { return Pose::Translation(0.15 * k - 3, kLaneM, 0); }
 
+  static void AddSight(ObjectId id, const Shape& shape, const Pose& T_W_B, Frame& frame) {
+    for (const Aabb& box_B : shape.boxes_B) {
+      AddObject(frame, id, T_W_B * Pose{.translation = box_B.Center()},
+                BoxSurface(box_B.max - box_B.min, 0.06));
+    }
+  }
   // Of the house, what the sensor sees beside the object and the wall; and that wall.
   void AddBehind(const Shape& shape, const Pose& T_W_B, Frame& frame) const {
     for (double x = -8; x < 8; x += 0.1) {
@@ -77,7 +97,7 @@ class SeenThrough : public testing::Test {
         const double ahead_m = (p_W * kLaneM / kHouseM - T_W_B.translation).x();
         if (wall_from_m_ && ahead_m > *wall_from_m_) {
           AddPoint(frame, kStaticLabel, at_wall_W);
-        } else if (has_house_ && !Hides(shape, T_W_B, p_W)) {
+        } else if (!Hides(shape, T_W_B, p_W)) {
           AddPoint(frame, kStaticLabel, p_W);
         }
       }
@@ -102,6 +122,38 @@ TEST_F(SeenThrough, IsNotTheOneThatWasLost) {
   EXPECT_FALSE(Same(1, 2));
 }
 
+TEST_F(SeenThrough, IsNotTheOneThatWasLostIfASourceMissesIt) {
+  missed_ = 40;
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_FALSE(Same(1, 2));
+}
+
+// Be it at once (masks of a camera, with points of their own) or between its frames.
+TEST_F(SeenThrough, IsNotTheOneThatWasLostByWhatAnotherSensorSees) {
+  for (const double later_s : {0.0, 0.05}) {
+    BeginAnew();
+    background_s_ = later_s;
+    LoseAndSee(kCyclist, kPedestrian);
+    EXPECT_FALSE(Same(1, 2)) << later_s;
+  }
+}
+
+TEST_F(SeenThrough, IsNotTheOneThatWasLostWhenItIsGone) {
+  for (const int frames : {5, 12}) {
+    BeginAnew();
+    See(1, kCyclist, 0, 20);
+    See(2, kPedestrian, 30, 30 + frames);
+    SeeNobody(30 + frames, 55);
+    EXPECT_FALSE(Same(1, 2)) << frames;
+  }
+}
+
+TEST_F(SeenThrough, IsNotTheOneThatWasLostWhenNothingLiesBehindAnyMore) {
+  sky_from_ = 36;
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_FALSE(Same(1, 2));
+}
+
 TEST_F(SeenThrough, IsNobodyWhoIsThere) {
   LoseAndSee(kCyclist, kCyclist);
   EXPECT_TRUE(Same(1, 2));
@@ -116,7 +168,7 @@ TEST_F(SeenThrough, IsNobodyOfWhomThereIsNoRay) {
 
 // Where nothing lies behind, nothing tells a pedestrian from the cyclist's middle.
 TEST_F(SeenThrough, IsNobodyBeforeTheOpenSky) {
-  has_house_ = false;
+  sky_from_ = 0;
   LoseAndSee(kCyclist, kPedestrian);
   EXPECT_TRUE(Same(1, 2));
 }
