@@ -180,7 +180,7 @@ std::vector<Setting> SceneSettings() {
                        "the same of their angles"),
       CLEARWAY_SETTING(
           "scene.reidentify", scene.reidentify,
-          "lost objects are known again under new ids; needs a true object_pose_error_m"),
+          "lost objects are known by new ids; poses that are off need object_pose_error_m"),
       CLEARWAY_SETTING("scene.filter_labels", scene.filter_labels,
                        "whether labels that the points around contradict are left out"),
       CLEARWAY_SETTING("scene.dynamic_life_s", scene.dynamic_life,

@@ -55,13 +55,24 @@ PositionBound FirstBound(const MovingObject& object, const SceneParams& params) 
   return BoundOf({&last, 1}, last.stamp, {}, *object.solid, params);
 }
 
-// What was seen of it before, and now.
-Aabb BoxWith(const MovingObject& object, const LabelledCloud& cloud,
-             std::span<const std::uint32_t> points) {
-  const Pose T_O_W = Inverse(object.history.back().T_W_O);
-  Aabb box_O = object.observed_box_O;
-  for (const std::uint32_t i : points) box_O.Extend(T_O_W * cloud.ends_W[i].cast<double>());
-  return box_O;
+// Misses of what was hit before: nothing else can be wrong, and the free space around an object is
+// none of its map.
+ScanUpdate MissesOf(const MovingObject& object, const LabelledCloud& cloud,
+                    const SceneParams& params, ThreadPool& pool) {
+  const Aabb box_O = object.observed_box_O.Padded(params.object_resolution_m);
+  const ClippedRays rays = RaysWithin(box_O, object.history.back().T_W_O, cloud, params);
+  // Rays that are too many clear nothing: only an object of some kilometres has them.
+  const ScanUpdate cast =
+      RayCaster(pool).Cast(object.map_O.grid(), rays.Cloud(), {}).value_or(ScanUpdate());
+  ScanUpdate misses;
+  for (std::size_t i = 0; i < cast.keys().size(); ++i) {
+    const VoxelBlock* known = object.map_O.blocks().Find(cast.keys()[i]);
+    if (known == nullptr) continue;
+    BlockMask missed = cast.block(i).free;
+    missed.Subtract(cast.block(i).end) &= known->observed;
+    if (missed.Any()) misses.MarkFree(cast.keys()[i], missed);
+  }
+  return misses;
 }
 
 // Where O begins: its voxels are then W's moved by a quarter, however a wrong label or two moves
@@ -152,13 +163,7 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
   const Pose T_O_W = Inverse(object.history.back().T_W_O);
   VoxelMap map_O = object.map_O;
   ScanUpdate update;
-  if (params.clear_objects_by_rays) {
-    // Only its surroundings are cleared, and its own hits are added exactly, below.
-    const Aabb box_O = BoxWith(object, cloud, points).Padded(params.object_resolution_m);
-    const ClippedRays rays = RaysWithin(box_O, object.history.back().T_W_O, cloud, params);
-    // Rays that are too many clear nothing: only an object of some kilometres has them.
-    update = RayCaster(pool).Cast(map_O.grid(), rays.Cloud(), {}).value_or(ScanUpdate());
-  }
+  if (params.clear_objects_by_rays) update = MissesOf(object, cloud, params, pool);
   for (std::uint32_t i : points) {
     const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
     if (map_O.grid().Addressable(p_O)) update.MarkHit(map_O.grid().KeyOf(p_O));

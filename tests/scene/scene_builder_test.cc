@@ -213,11 +213,13 @@ TEST_F(SceneBuilderTest, RaysClearTheObjectsOwnMapOnlyIfAsked) {
     for (int i = 0; i < 3; ++i) AddPoint(second, kStaticLabel, {4.1, 0.01, 0.1});
     ASSERT_TRUE(dut.Apply(first).ok());
     const std::int64_t before = dut.Publish()->FindObject(3)->map_O.occupied_count();
+    const Aabb box_O = dut.Publish()->FindObject(3)->observed_box_O;
     for (int k = 1; k < 6; ++k) {
       second.stamp = At(0.1 * k);
       ASSERT_TRUE(dut.Apply(second).ok());
     }
     EXPECT_EQ(dut.Publish()->FindObject(3)->map_O.occupied_count() < before, clear);
+    EXPECT_EQ(dut.Publish()->FindObject(3)->observed_box_O, box_O) << "no free space around it";
   }
 }
 

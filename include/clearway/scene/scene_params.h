@@ -41,7 +41,7 @@ struct SceneParams {
   RayOptions rays;
 
   SolidMode solid = SolidMode::kConvexHull;
-  // Whether rays also clear voxels of an object's own map that they cross on their way to it.
+  // Whether rays also clear what was hit of an object, where they pass it.
   bool clear_objects_by_rays = false;
 
   MotionModel motion = MotionModel::kLastMotion;
