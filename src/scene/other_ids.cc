@@ -15,9 +15,6 @@ namespace {
 // So long is waited before maps are joined, unless the new one goes out of sight before: of a first
 // glimpse (a flank without its ends) nobody knows where exactly it fits.
 constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
-// What was not seen for so long has gone out of sight: longer than the time between two scans of a
-// sensor, whatever other sensors see meanwhile.
-constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 
 // Those of parts and of what they are parts of.
 std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {

@@ -15,6 +15,10 @@ inline bool IsYoung(const MovingObject& object, Time stamp) {
   return stamp - object.first_seen <= kYoung;
 }
 
+// What was not seen for so long has gone out of sight: longer than the time between two scans of a
+// sensor, whatever other sensors see meanwhile.
+inline constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
+
 struct PlaceIfSame {
   Pose T_W_L;  // where `lost` was to be when `young` was first seen
   double tolerance_m;

@@ -63,8 +63,9 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 }
 
 absl::Status CheckSize(const VoxelMap& static_map_W, const ObjectMap& objects,
-                       const FrameLimits& limits) {
+                       const Surroundings& around_young, const FrameLimits& limits) {
   std::size_t blocks = static_map_W.blocks().size();
+  for (const auto& [id, around_O] : around_young) blocks += around_O.blocks().size();
   for (const auto& [id, object] : objects) blocks += object->map_O.blocks().size();
   if (blocks <= limits.max_blocks) return absl::OkStatus();
   return absl::ResourceExhaustedError(absl::StrCat(
@@ -126,9 +127,11 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
     around_young = SeenAround(around_young_, objects, cloud, frame.stamp, scene_.params, *pool_);
     report.objects_reidentified =
         JoinSeenAgain(objects, dropped_lately, frame.stamp, around_young, scene_.params, *pool_);
+    std::erase_if(around_young, [&](const auto& entry) { return !objects.contains(entry.first); });
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
-  if (absl::Status status = CheckSize(static_map_W, objects, limits_); !status.ok()) return status;
+  if (absl::Status status = CheckSize(static_map_W, objects, around_young, limits_); !status.ok())
+    return status;
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);

@@ -12,16 +12,25 @@
 namespace clearway {
 namespace {
 
-// In O of the young one: where those would be that it could be.
+Aabb Intersection(const Aabb& a, const Aabb& b) {
+  return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+}
+
+// In O of the young one: where those would be that it could be, as whose part it is seen.
 Aabb BoxOfLost(const ObjectMap& objects, const MovingObject& young, const SceneParams& params) {
+  constexpr double kBeyond_voxels = 3;
   const Pose T_Y_W = Inverse(FirstPose(young).T_W_O);
+  const Aabb young_Y = young.observed_box_O.Padded(kBeyond_voxels * params.object_resolution_m);
   Aabb box_Y;
   for (const auto& [id, lost] : objects) {
     if (!WasLostBefore(*lost, young)) continue;
     const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(*lost, young, params);
     if (!place) continue;
     const Aabb lost_Y = Transformed(T_Y_W * place->T_W_L, lost->observed_box_O);
-    box_Y.Extend(lost_Y.Padded(place->tolerance_m));
+    const Eigen::Vector3d unseen_m = (lost_Y.Size() - young_Y.Size()).cwiseMax(0);
+    const Aabb around_Y{young_Y.min - unseen_m, young_Y.max + unseen_m};
+    const Aabb may_be_Y = Intersection(lost_Y.Padded(place->tolerance_m), around_Y);
+    if (!may_be_Y.Empty()) box_Y.Extend(may_be_Y);
   }
   return box_Y;
 }
@@ -49,7 +58,6 @@ bool IsPassed(const VoxelMap& map_L, VoxelKey key, const Pose& T_Y_L, const Voxe
 Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         const LabelledCloud& cloud, Time stamp, const SceneParams& params,
                         ThreadPool& pool) {
-  constexpr Duration kPlaced = std::chrono::milliseconds(100);  // another sensor's scan is near
   Surroundings around;
   for (const auto& [id, young] : objects) {
     if (young->given() || !IsYoung(*young, stamp)) continue;
@@ -58,7 +66,10 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
     const bool goes_on = known != before.end() && young->first_seen < stamp;
     VoxelMap around_Y =
         goes_on ? known->second : VoxelMap(params.object_resolution_m, params.Model());
-    if (stamp - young->t_k() <= kPlaced) {
+    // By another sensor's scan, too, if it is known where the young one is then.
+    const bool is_placed =
+        young->t_k() == stamp || (young->velocity_O && stamp - young->t_k() <= kOutOfSight);
+    if (is_placed) {
       const Pose T_W_Y = PredictPose(*young, stamp, params.horizon).T_W_O;
       const Aabb box_Y = BoxOfLost(objects, *young, params);
       if (!box_Y.Empty()) Add(cloud, box_Y, T_W_Y, params, pool, around_Y);

@@ -14,8 +14,8 @@ namespace clearway {
 // lost before would be if it were that one.
 using Surroundings = std::map<ObjectId, VoxelMap>;
 
-// With what the rays of that stamp's cloud pass and hit, for those of the objects that are placed
-// then. Those of objects that are no longer young are left out.
+// With what the rays of that stamp's cloud pass and hit about those of the objects of which is
+// known where they are then. What is no longer young is left out.
 Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         const LabelledCloud& cloud, Time stamp, const SceneParams& params,
                         ThreadPool& pool);

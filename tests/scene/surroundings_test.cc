@@ -39,16 +39,16 @@ class SeenThrough : public testing::Test {
   void See(ObjectId id, const Shape& shape, int from, int until) {
     for (int k = from; k < until; ++k) {
       const Pose T_W_B = PoseAt(k);
-      Frame frame = FrameAt(k * kPeriod_s);
+      Frame frame = FrameAt(k * period_s_);
       if (k != missed_) AddSight(id, shape, T_W_B, frame);
       if (k > from && k != missed_) {
         const int before = k - 1 == missed_ ? k - 2 : k - 1;
         const Pose H_W = T_W_B * Inverse(PoseAt(before));
-        frame.motions.push_back({id, H_W, At(before * kPeriod_s)});
+        frame.motions.push_back({id, H_W, At(before * period_s_)});
       }
       if (background_s_) {
         ASSERT_TRUE(dut_->Apply(frame).ok());
-        frame = FrameAt(k * kPeriod_s + *background_s_);
+        frame = FrameAt(k * period_s_ + *background_s_);
       }
       if (k < sky_from_) AddBehind(shape, T_W_B, frame);
       ASSERT_TRUE(dut_->Apply(frame).ok());
@@ -56,7 +56,7 @@ class SeenThrough : public testing::Test {
   }
   void SeeNobody(int from, int until) {
     for (int k = from; k < until; ++k) {
-      ASSERT_TRUE(dut_->Apply(FrameAt(k * kPeriod_s)).ok());
+      ASSERT_TRUE(dut_->Apply(FrameAt(k * period_s_)).ok());
     }
   }
   bool Same(ObjectId a, ObjectId b) {
@@ -72,13 +72,14 @@ class SeenThrough : public testing::Test {
   int sky_from_ = 1000;
   // In that frame the source misses the object.
   int missed_ = -1;
+  double period_s_ = 0.1;
   // Static points come in another frame, so much later.
   std::optional<double> background_s_;
   // A wall before it, from so far ahead of its middle on.
   std::optional<double> wall_from_m_;
 
  private:
-  static constexpr double kPeriod_s = 0.1, kLaneM = 6, kWallM = 4, kHouseM = 9;
+  static constexpr double kLaneM = 6, kWallM = 4, kHouseM = 9;
 
   static Pose PoseAt(int k) { return Pose::Translation(0.15 * k - 3, kLaneM, 0); }
 
@@ -130,8 +131,10 @@ TEST_F(SeenThrough, IsNotTheOneThatWasLostIfASourceMissesIt) {
 
 // Be it at once (masks of a camera, with points of their own) or between its frames.
 TEST_F(SeenThrough, IsNotTheOneThatWasLostByWhatAnotherSensorSees) {
-  for (const double later_s : {0.0, 0.05}) {
+  using Times = std::pair<double, double>;
+  for (const auto& [period_s, later_s] : {Times{0.1, 0}, {0.1, 0.05}, {0.2, 0.15}}) {
     BeginAnew();
+    period_s_ = period_s;
     background_s_ = later_s;
     LoseAndSee(kCyclist, kPedestrian);
     EXPECT_FALSE(Same(1, 2)) << later_s;
