@@ -88,16 +88,15 @@ AT_MOST = {
 }
 # So many times another number of the same run.
 AT_MOST_TIMES = {
-    f"prediction_{what}{poses}_1s_m": (2, f"prediction_{what}_1s_m")
-    for poses in ("_oxts", "_oxts_mended")
+    f"prediction_{what}_oxts_1s_m": (2, f"prediction_{what}_1s_m")
     for what in ("van", "cyclist", "parked")
 }
 
 BETWEEN = {
-    f"prediction_within{drive}_{ahead}s": (0.9, 0.98)
-    for drive in ("", "_oxts", "_oxts_mended", "_av2", "_table1", "_table1_registered",
+    f"prediction_within{drive}{ahead}": (0.9, 0.98)
+    for drive in ("", "_oxts", "_oxts_left", "_av2", "_street", "_table1", "_table1_registered",
                   "_table1_registered_last_motion", "_table1_last_motion", "_lab", "_lab_last_motion")
-    for ahead in ("0.5", "1", "2", "3")
+    for ahead in ("", "_0.5s", "_1s", "_2s", "_3s")
 }
 
 

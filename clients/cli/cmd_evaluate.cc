@@ -25,7 +25,7 @@ constexpr char kExamples[] =
     "  clearway evaluate sim:street --unlabelled 1,2 --dynamic-life 1\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
     "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json\n"
-    "  clearway evaluate kitti0000_fov --poses oxts --sensor-error 1 --sensor-error-deg 1\n"
+    "  clearway evaluate kitti0000_fov --poses oxts --motion track --sensor-error 0\n"
     "  clearway evaluate kitti0000_fov --motion track --object-voxel 0.05 --html drive.html";
 
 struct Flags {
@@ -37,7 +37,7 @@ struct Flags {
   double max_range_m = 50;
   double grazing_m = 0;
   double pose_error_m = 0, pose_error_deg = 0;
-  double sensor_error_m = 0, sensor_error_deg = 0;
+  std::optional<double> sensor_error_m, sensor_error_deg;
   bool reidentify = false, filter_labels = false, clear_objects = false;
   double dynamic_life_s = 0;
   ErrorFlags errors;
@@ -57,8 +57,13 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rest_distance_m = flags.rest_distance_m;
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
-  params.sensor_pose_error_m = flags.sensor_error_m;
-  params.sensor_pose_error_rad = flags.sensor_error_deg * std::numbers::pi / 180;
+  if (!flags.sensor_error_m && !flags.sensor_error_deg) {
+    params.sensor_pose_error_m = source.frames.sensor_pose_error_m;
+    params.sensor_pose_error_rad = source.frames.sensor_pose_error_rad;
+  } else {
+    params.sensor_pose_error_m = flags.sensor_error_m.value_or(0);
+    params.sensor_pose_error_rad = flags.sensor_error_deg.value_or(0) * std::numbers::pi / 180;
+  }
   params.reidentify = flags.reidentify;
   params.filter_labels = flags.filter_labels;
   params.clear_objects_by_rays = flags.clear_objects;
@@ -108,8 +113,10 @@ absl::Status CarryTruth(const Flags& flags, const Terminal& terminal, TrueSource
     corrections.Add(frame.stamp, *report.T_W_S * Inverse(frame.T_W_S));
   };
   absl::Status status = MakeScene(source, flags, terminal, teller, add);
-  if (status.ok()) source.truth = CarriedBy(std::move(corrections), source.truth);
-  return status;
+  if (!status.ok()) return status;
+  source.truth = CarriedBy(std::move(corrections), source.truth);
+  source.truth.description += ", where the sensor saw them (scans are registered to the map)";
+  return absl::OkStatus();
 }
 
 absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
@@ -134,7 +141,8 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
   }
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
-  const bool mends = flags.sensor_error_m > 0 || flags.sensor_error_deg > 0;
+  const SceneParams params = ParamsOf(*source, flags);
+  const bool mends = params.sensor_pose_error_m > 0 || params.sensor_pose_error_rad > 0;
   if (mends && !source->simulation) {
     if (auto status = CarryTruth(flags, terminal, *source); !status.ok()) return status;
   }
@@ -193,15 +201,15 @@ void AddEvaluate(Cli& cli) {
       ->check(Between(0, 57))
       ->capture_default_str();
   command
-      ->add_option("--sensor-error", flags->sensor_error_m,
-                   "As of clearway-server --scene-sensor-pose-error-m;\nrecorded boxes are then "
-                   "judged where the sensor saw them")
-      ->check(Between(0, 10))
-      ->capture_default_str();
+      ->add_option(
+          "--sensor-error", flags->sensor_error_m,
+          "As of clearway-server --scene-sensor-pose-error-m (unless\ngiven, what suits the "
+          "source: 1 for oxts poses, 0 for\nothers); recorded boxes are then judged where "
+          "the sensor\nsaw them")
+      ->check(Between(0, 10));
   command
       ->add_option("--sensor-error-deg", flags->sensor_error_deg, "The same of angles, in degrees")
-      ->check(Between(0, 57))
-      ->capture_default_str();
+      ->check(Between(0, 57));
   command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
   command->add_flag("--filter-labels", flags->filter_labels,
                     "As of clearway-server --scene-filter-labels");

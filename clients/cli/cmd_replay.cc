@@ -110,6 +110,16 @@ void NoteResolution(const FrameSource& source, const SceneParams& params, std::o
       << params.resolution_m << " m (clearway-server --scene-resolution-m)\n";
 }
 
+// Not an error either: it costs time to register scans.
+void NotePoseError(const FrameSource& source, const SceneParams& params, std::ostream& err) {
+  const bool drift = source.sensor_pose_error_m > 0 || source.sensor_pose_error_rad > 0;
+  if (!drift || params.sensor_pose_error_m > 0 || params.sensor_pose_error_rad > 0) return;
+  err << "note: the sensor's poses are off by about " << source.sensor_pose_error_m
+      << " m; the server takes them as they are (clearway-server --scene-sensor-pose-error-m "
+      << source.sensor_pose_error_m << " --scene-sensor-pose-error-rad "
+      << source.sensor_pose_error_rad << " registers scans to the map)\n";
+}
+
 absl::Status CheckRange(const Flags& flags, std::size_t frame_count) {
   if (frame_count == 0) return absl::FailedPreconditionError(flags.spec + ": holds no frames");
   const std::size_t to = flags.to.value_or(frame_count - 1);
@@ -132,7 +142,10 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
 
-  if (!flags.quiet) NoteResolution(*source, (*connection)->server().params, terminal.err);
+  if (!flags.quiet) {
+    NoteResolution(*source, (*connection)->server().params, terminal.err);
+    NotePoseError(*source, (*connection)->server().params, terminal.err);
+  }
 
   AckTally tally;
   FrameSender sender(*connection);

@@ -8,10 +8,6 @@
 namespace clearway {
 namespace {
 
-Aabb Intersection(const Aabb& a, const Aabb& b) {
-  return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
-}
-
 // Around everything whose place is known; what may be anywhere in a swept bound counts where it was
 // last placed.
 Aabb KnownBox(const SceneAtTime& scene) {

@@ -157,6 +157,7 @@ absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
   auto boxes = BoxesInWorld(labels->boxes, result.poses, calibration->T_C_S, labels_path);
   if (!boxes.ok()) return boxes.status();
   result.boxes = *std::move(boxes);
+  result.of_gps = true;
   result.points_of = [folder](int frame) { return folder / absl::StrFormat("%06d.bin", frame); };
   const auto labeller =
       std::make_shared<const Labeller>(*calibration, std::move(labels->unlabelled));

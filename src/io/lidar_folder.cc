@@ -52,10 +52,12 @@ absl::Status ReadPoints(const Path& path, Frame& frame) {
   return absl::OkStatus();
 }
 
+constexpr char kOxtsSuffix[] = "_oxts";
+
 // The part of the tables' names that tells the pairs apart.
 absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
   constexpr std::pair<LidarPoses, const char*> kPairs[] = {
-      {LidarPoses::kPlain, ""}, {LidarPoses::kIcp, "_icp"}, {LidarPoses::kOxts, "_oxts"}};
+      {LidarPoses::kPlain, ""}, {LidarPoses::kIcp, "_icp"}, {LidarPoses::kOxts, kOxtsSuffix}};
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) {
     return absl::NotFoundError(absl::StrCat(folder.string(), ": no such folder"));
@@ -90,6 +92,7 @@ absl::StatusOr<LidarFolder> OpenLidarFolder(const Path& folder, const LidarFolde
                    .options = options,
                    .poses = *poses,
                    .boxes = *boxes,
+                   .of_gps = *suffix == kOxtsSuffix,
                    .points_of = [folder](int frame) { return PointsPath(folder, frame); },
                    .read = [](const Path& points, std::span<const RecordedBox>,
                               Frame& frame) { return ReadPoints(points, frame); }});

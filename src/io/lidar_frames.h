@@ -19,6 +19,7 @@ struct LidarScans {
   LidarFolderOptions options;
   std::vector<RecordedPose> poses;  // ascending frames, not empty
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
+  bool of_gps = false;              // the poses are of GPS and inertial sensors
   // The file of a frame's points.
   std::function<std::filesystem::path(int frame)> points_of;
   // Sets points and labels of a frame whose boxes these are. Any thread.

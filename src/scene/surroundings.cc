@@ -12,10 +12,6 @@
 namespace clearway {
 namespace {
 
-Aabb Intersection(const Aabb& a, const Aabb& b) {
-  return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
-}
-
 // In O of the young one: where those would be that it could be, as whose part it is seen.
 Aabb BoxOfLost(const ObjectMap& objects, const MovingObject& young, const SceneParams& params) {
   constexpr double kBeyond_voxels = 3;

@@ -45,55 +45,6 @@ TEST_F(CliServer, GivenObjectsComeAndGo) {
   EXPECT_EQ(Clearway({"objects", "--remove", "7"}).exit_code, 1);
 }
 
-TEST_F(CliServer, ReplayIsAppliedOnce) {
-  const json first = Replay();
-  EXPECT_EQ(first["frames"], kFrames);
-  EXPECT_EQ(first["applied"], kFrames);
-  EXPECT_EQ(first["repeated"], 0);
-  const json status = Ask({"status"});
-  EXPECT_EQ(status["frames_applied"], kFrames);
-  EXPECT_EQ(status["version"], first["version"]);
-  EXPECT_EQ(Replay()["repeated"], kFrames);
-}
-
-TEST_F(CliServer, ReplayShowsItsProgress) {
-  const Finished dut = Clearway({"replay", "sim:small", "--frames", "4"});
-  EXPECT_EQ(dut.exit_code, 0) << dut.err;
-  EXPECT_THAT(dut.err, HasSubstr("4/4 frames"));
-  EXPECT_THAT(dut.err, HasSubstr("points/s"));
-  EXPECT_THAT(dut.out, StartsWith("sent 4 frames"));
-}
-
-TEST_F(CliServer, ReplayTakesARange) {
-  EXPECT_EQ(Ask({"replay", "sim:small", "--from", "2", "--to", "4"})["frames"], 3);
-  const Finished backwards = Clearway({"replay", "sim:small", "--from", "4", "--to", "2"});
-  EXPECT_EQ(backwards.exit_code, 2);
-  const Finished beyond = Clearway({"replay", "sim:small", "--to", "100000"});
-  EXPECT_EQ(beyond.exit_code, 2);
-  EXPECT_THAT(beyond.err, HasSubstr("ends at frame"));
-}
-
-TEST_F(CliServer, ReplayStopsAtARefusedFrame) {
-  Ask({"replay", "sim:small", "--from", "5", "--to", "5"});
-  const Finished dut = Clearway({"replay", "sim:small", "--from", "0", "--to", "4"});
-  EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, HasSubstr("was refused: "));
-  EXPECT_EQ(Ask({"status"})["frames_applied"], 1);
-}
-
-TEST_F(CliServer, ARecordingMakesTheSameSceneAsItsSource) {
-  Replay();
-  const json from_source = Ask({"status", "--hash"});
-  const TemporaryFolder folder;
-  const std::string file = folder / "small.cwr";
-  RunProgram(
-      {CLEARWAY_BINARY, "simulate", "small", "--frames", std::to_string(kFrames), "--out", file});
-  Ask({"reset"});
-  EXPECT_EQ(Ask({"replay", file})["applied"], kFrames);
-  EXPECT_EQ(Ask({"status", "--hash"})["scene_hash"], from_source["scene_hash"]);
-  EXPECT_EQ(from_source["scene_hash"].get<std::string>().size(), 32u);
-}
-
 TEST_F(CliServer, ListsObjects) {
   Replay();
   const json objects = Ask({"objects", "--time", "+1"})["objects"];

@@ -22,6 +22,14 @@ TEST(Aabb, TouchingCountsAsIntersecting) {
   EXPECT_FALSE(dut.Intersects({{1.001, 0, 0}, {2, 1, 1}}));
 }
 
+TEST(Aabb, IntersectionIsWhatIsInBoth) {
+  const Aabb dut{{0, 0, 0}, {4, 2, 1}};
+  EXPECT_EQ(Intersection(dut, {{3, -1, -1}, {9, 1, 9}}), (Aabb{{3, 0, 0}, {4, 1, 1}}));
+  EXPECT_FALSE(Intersection(dut, {{4, 0, 0}, {5, 1, 1}}).Empty());  // they touch
+  EXPECT_TRUE(Intersection(dut, {{4.001, 0, 0}, {5, 1, 1}}).Empty());
+  EXPECT_TRUE(Intersection(dut, Aabb{}).Empty());
+}
+
 TEST(Aabb, ExtendsByPointsAndBoxes) {
   Aabb dut;
   dut.Extend(Eigen::Vector3d(1, 2, 3));

@@ -88,6 +88,7 @@ TEST_F(KittiTracking, IsToldByItsFolder) {
 TEST_F(KittiTracking, PosesAreEastNorthUp) {
   const auto dut = Open();
   ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.sensor_pose_error_m, 1);  // they are of GPS
   ASSERT_EQ(dut->poses.size(), 2u);
   EXPECT_TRUE(dut->poses[0].T_W_S.translation.isApprox(kSensorInImu, 1e-9));
   EXPECT_EQ(dut->poses[1].stamp, TimeFromNanoseconds(100'000'000));

@@ -34,6 +34,20 @@ TEST(LidarFolder, FramesCarryPointsLabelsStampsAndPoses) {
   EXPECT_TRUE(Validate(*frame, {}).ok());
 }
 
+TEST(LidarFolder, PosesOfGpsAreKnownToDrift) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  folder.Write("poses_oxts.csv", kPoses);
+  folder.Write("objects_oxts.csv", kObjects);
+  const auto icp = OpenLidarFolder(folder.path());
+  const auto oxts = OpenLidarFolder(folder.path(), {.poses = LidarPoses::kOxts});
+  ASSERT_TRUE(icp.ok() && oxts.ok()) << oxts.status();
+  EXPECT_EQ(icp->frames.sensor_pose_error_m, 0);
+  EXPECT_EQ(icp->frames.sensor_pose_error_rad, 0);
+  EXPECT_EQ(oxts->frames.sensor_pose_error_m, 1);
+  EXPECT_EQ(oxts->frames.sensor_pose_error_rad, 0.02);
+}
+
 TEST(LidarFolder, MotionsJoinConsecutiveBoxes) {
   TemporaryFolder folder;
   WriteExample(folder);

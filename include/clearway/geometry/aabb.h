@@ -37,6 +37,11 @@ struct Aabb {
   bool operator==(const Aabb&) const = default;
 };
 
+// Of boxes in one frame; empty if they do not touch.
+inline Aabb Intersection(const Aabb& a, const Aabb& b) {
+  return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+}
+
 // The smallest box in A that holds `box_B`. An empty box stays empty.
 Aabb Transformed(const Pose& T_A_B, const Aabb& box_B);
 

@@ -15,6 +15,9 @@ struct FrameSource {
   std::string description;  // for people: what and where
   std::size_t frame_count = 0;
   double resolution_m = 0.1;  // voxel size that suits the data
+  // How far the sensor's poses are off, on average, as SceneParams takes it; 0 if they are as good
+  // as the scans, or nothing is known of it.
+  double sensor_pose_error_m = 0, sensor_pose_error_rad = 0;
   std::function<absl::StatusOr<Frame>(std::size_t index)> read;
 };
 

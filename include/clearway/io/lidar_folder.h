@@ -13,7 +13,8 @@
 namespace clearway {
 
 // Which of a folder's pairs of tables to read: poses.csv and objects.csv, poses_icp.csv and
-// objects_icp.csv, or those of oxts. kAny: the first pair that is there, in this order.
+// objects_icp.csv, or those of oxts. kAny: the first pair that is there, in this order. Those of
+// oxts are of GPS and inertial sensors and drift: the frames' source says so.
 enum class LidarPoses { kAny, kPlain, kIcp, kOxts };
 
 // What frames say of the objects: world motions H_W = T_W_B(k) * T_W_B(k-1)^-1 (eq. 2), the
