@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "clearway/scene/scene_builder.h"
@@ -34,7 +35,11 @@ class SeenThrough : public testing::Test {
     params_.reidentify = true;
     BeginAnew();
   }
-  void BeginAnew() { dut_.emplace(params_, FrameLimits{}, pool_); }
+  void BeginAnew(const FrameLimits& limits = {}) {
+    dut_.emplace(params_, limits, pool_);
+    refused_ = absl::OkStatus();
+  }
+  void TearDown() override { EXPECT_TRUE(refused_.ok()) << refused_; }
 
   void See(ObjectId id, const Shape& shape, int from, int until) {
     for (int k = from; k < until; ++k) {
@@ -47,17 +52,15 @@ class SeenThrough : public testing::Test {
         frame.motions.push_back({id, H_W, At(before * period_s_)});
       }
       if (background_s_) {
-        ASSERT_TRUE(dut_->Apply(frame).ok());
+        Apply(frame);
         frame = FrameAt(k * period_s_ + *background_s_);
       }
       if (k < sky_from_) AddBehind(shape, T_W_B, frame);
-      ASSERT_TRUE(dut_->Apply(frame).ok());
+      Apply(frame);
     }
   }
   void SeeNobody(int from, int until) {
-    for (int k = from; k < until; ++k) {
-      ASSERT_TRUE(dut_->Apply(FrameAt(k * period_s_)).ok());
-    }
+    for (int k = from; k < until; ++k) Apply(FrameAt(k * period_s_));
   }
   bool Same(ObjectId a, ObjectId b) {
     const ScenePtr scene = dut_->Publish();
@@ -68,6 +71,16 @@ class SeenThrough : public testing::Test {
     See(2, young, 30, 50);
   }
 
+  // What the published scene holds; and what of the frames was refused, until it is asked.
+  std::size_t BlocksOfScene() {
+    const ScenePtr scene = dut_->Publish();
+    std::size_t blocks = scene->static_map_W.blocks().size();
+    for (const auto& object : scene->objects) blocks += object->map_O.blocks().size();
+    return blocks;
+  }
+  absl::Status Refused() { return std::exchange(refused_, absl::OkStatus()); }
+
+  SceneParams params_;
   // From that frame on nothing lies behind.
   int sky_from_ = 1000;
   // In that frame the source misses the object.
@@ -113,9 +126,14 @@ class SeenThrough : public testing::Test {
     });
   }
 
-  SceneParams params_;
+  void Apply(const Frame& frame) {
+    const auto report = dut_->Apply(frame);
+    if (!report.ok() && refused_.ok()) refused_ = report.status();
+  }
+
   ThreadPool pool_{1};
   std::optional<SceneBuilder> dut_;
+  absl::Status refused_;
 };
 
 TEST_F(SeenThrough, IsNotTheOneThatWasLost) {
@@ -174,6 +192,21 @@ TEST_F(SeenThrough, IsNobodyBeforeTheOpenSky) {
   sky_from_ = 0;
   LoseAndSee(kCyclist, kPedestrian);
   EXPECT_TRUE(Same(1, 2));
+}
+
+// What is kept of them takes memory, too.
+TEST_F(SeenThrough, CountsToTheBlocksThatAreAllowed) {
+  LoseAndSee(kCyclist, kPedestrian);
+  FrameLimits limits;
+  limits.max_blocks = BlocksOfScene();
+  BeginAnew(limits);
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_TRUE(absl::IsResourceExhausted(Refused()));
+
+  params_.reidentify = false;
+  BeginAnew(limits);
+  LoseAndSee(kCyclist, kPedestrian);
+  EXPECT_TRUE(Refused().ok());
 }
 
 }  // namespace
