@@ -95,7 +95,8 @@ AT_MOST_TIMES = {
 BETWEEN = {
     f"prediction_within{drive}{ahead}": (0.9, 0.98)
     for drive in ("", "_oxts", "_oxts_left", "_av2", "_street", "_table1", "_table1_registered",
-                  "_table1_registered_last_motion", "_table1_last_motion", "_lab", "_lab_last_motion")
+                  "_table1_registered_last_motion", "_table1_mended", "_table1_mended_last_motion",
+                  "_table1_last_motion", "_lab", "_lab_last_motion")
     for ahead in ("", "_0.5s", "_1s", "_2s", "_3s")
 }
 

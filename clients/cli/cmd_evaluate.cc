@@ -45,6 +45,18 @@ struct Flags {
   std::string html;
 };
 
+// What is not given suits the source; but if one is given as 0, poses are to be left as they are.
+void SetSensorError(const FrameSource& source, const Flags& flags, SceneParams& params) {
+  const bool left =
+      flags.sensor_error_m.value_or(1) == 0 || flags.sensor_error_deg.value_or(1) == 0;
+  params.sensor_pose_error_m = left ? 0 : source.sensor_pose_error_m;
+  params.sensor_pose_error_rad = left ? 0 : source.sensor_pose_error_rad;
+  if (flags.sensor_error_m) params.sensor_pose_error_m = *flags.sensor_error_m;
+  if (flags.sensor_error_deg) {
+    params.sensor_pose_error_rad = *flags.sensor_error_deg * std::numbers::pi / 180;
+  }
+}
+
 SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   SceneParams params;
   params.resolution_m = source.frames.resolution_m;
@@ -57,13 +69,7 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rest_distance_m = flags.rest_distance_m;
   params.object_pose_error_m = flags.pose_error_m;
   params.object_pose_error_rad = flags.pose_error_deg * std::numbers::pi / 180;
-  if (!flags.sensor_error_m && !flags.sensor_error_deg) {
-    params.sensor_pose_error_m = source.frames.sensor_pose_error_m;
-    params.sensor_pose_error_rad = source.frames.sensor_pose_error_rad;
-  } else {
-    params.sensor_pose_error_m = flags.sensor_error_m.value_or(0);
-    params.sensor_pose_error_rad = flags.sensor_error_deg.value_or(0) * std::numbers::pi / 180;
-  }
+  SetSensorError(source.frames, flags, params);
   params.reidentify = flags.reidentify;
   params.filter_labels = flags.filter_labels;
   params.clear_objects_by_rays = flags.clear_objects;
@@ -208,7 +214,9 @@ void AddEvaluate(Cli& cli) {
           "the sensor\nsaw them")
       ->check(Between(0, 10));
   command
-      ->add_option("--sensor-error-deg", flags->sensor_error_deg, "The same of angles, in degrees")
+      ->add_option(
+          "--sensor-error-deg", flags->sensor_error_deg,
+          "The same of angles, in degrees (1.15 for oxts poses, or 0\nwith --sensor-error 0)")
       ->check(Between(0, 57));
   command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
   command->add_flag("--filter-labels", flags->filter_labels,

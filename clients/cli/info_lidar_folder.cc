@@ -82,6 +82,11 @@ Json JsonOf(const std::map<ObjectId, Track>& tracks) {
   return objects;
 }
 
+std::string DriftOf(const FrameSource& source) {
+  if (source.sensor_pose_error_m == 0) return "";
+  return absl::StrCat(" (its poses drift: off by about ", source.sensor_pose_error_m, " m)");
+}
+
 }  // namespace
 
 absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const SourceFlags& flags) {
@@ -95,12 +100,12 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
   const Time last = empty ? Time() : folder->poses.back().stamp;
 
   FileInfo info;
-  info.text =
-      absl::StrCat("source      ", folder->frames.description, "\n", "frames      ",
-                   Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
-                   Grouped(count->scans), " with points\n", "points      ", Grouped(count->points),
-                   "\n", "sensor      moves ", Fixed(SensorPath(folder->poses), 1), " m\n",
-                   "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  info.text = absl::StrCat(
+      "source      ", folder->frames.description, "\n", "frames      ",
+      Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
+      Grouped(count->scans), " with points\n", "points      ", Grouped(count->points), "\n",
+      "sensor      moves ", Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames),
+      "\n", "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
   info.json = {{"kind", "lidar_folder"},
                {"path", path},
                {"description", folder->frames.description},
@@ -109,6 +114,8 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
                {"points", count->points},
                {"first_stamp_ns", ToNanoseconds(first)},
                {"last_stamp_ns", ToNanoseconds(last)},
+               {"sensor_pose_error_m", folder->frames.sensor_pose_error_m},
+               {"sensor_pose_error_rad", folder->frames.sensor_pose_error_rad},
                {"objects", JsonOf(tracks)}};
   return info;
 }

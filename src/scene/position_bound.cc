@@ -191,7 +191,7 @@ bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others) {
 PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
                       bool of_two_mended) {
   constexpr double kUnknown_mps = 6;
-  constexpr double kOf95Noise = 1.55, kOf95MendedNoise = 1.8;
+  constexpr double kOf95Noise = 1.55, kOf95MendedNoise = 2.1;
   if (velocity_O == Twist{}) {
     return has_motion ? BoundAtRest(misses) : PositionBound{0, kUnknown_mps, 0};
   }

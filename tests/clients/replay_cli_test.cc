@@ -75,6 +75,8 @@ TEST_F(CliServer, ReplayTellsOfPosesThatDrift) {
   EXPECT_THAT(icp.err, Not(HasSubstr("note")));
   EXPECT_EQ(oxts.exit_code, 0) << oxts.err;
   EXPECT_THAT(oxts.err, HasSubstr("--scene-sensor-pose-error-m 1 "));
+  const Finished quiet = Clearway({"replay", path, "--poses", "oxts", "--quiet"});
+  EXPECT_EQ(quiet.err, "");
 }
 
 }  // namespace
