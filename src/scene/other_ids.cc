@@ -1,11 +1,11 @@
 #include "scene/other_ids.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "scene/mutual_fit.h"
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
 
@@ -185,15 +185,14 @@ std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately
                           const Surroundings& around_young, const SceneParams& params,
                           ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
-  const auto is_seen_through = [&](const Match& match) {
-    return WouldBeSeenThrough(*objects.at(match.lost), *objects.at(match.young), match.T_Y_L,
-                              around_young.at(match.young));
-  };
   std::vector<Match> sure;
-  std::ranges::copy_if(matches, std::back_inserter(sure), [&](const Match& match) {
-    return IsSure(match, matches, objects, dropped_lately, stamp, params) &&
-           !is_seen_through(match);
-  });
+  for (Match match : matches) {
+    if (!IsSure(match, matches, objects, dropped_lately, stamp, params)) continue;
+    const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
+    const VoxelMap& around_Y = around_young.at(match.young);
+    match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
+    if (!WouldBeSeenThrough(lost, young, match.T_Y_L, around_Y)) sure.push_back(match);
+  }
   for (const Match& match : sure) {
     const MovingObject& lost = *objects.at(match.lost);
     const MovingObject& young = *objects.at(match.young);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/completion.h"
+#include "scene/occupied_centers.h"
 #include "scene/position_bound.h"
 #include "scene/same_object.h"
 #include "scene/view_registration.h"
@@ -12,15 +13,6 @@
 
 namespace clearway {
 namespace {
-
-std::vector<Eigen::Vector3d> OccupiedCenters(const VoxelMap& map) {
-  std::vector<Eigen::Vector3d> centers;
-  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-    block.occupied.ForEach(
-        [&](int index) { centers.push_back(map.grid().CenterOf(VoxelAt(key, index))); });
-  });
-  return centers;
-}
 
 // Whether so many of the points lie where the object was seen before, and hardly any beyond it:
 // fewer yet where poses are off, as such maps are wide enough for much.

@@ -77,7 +77,7 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
 
 bool WouldBeSeenThrough(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
                         const VoxelMap& around_Y) {
-  constexpr std::size_t kOneIn = 5;
+  constexpr std::size_t kOneIn = 8;
   const VoxelMap& map_L = lost.map_O;
   std::size_t passed = 0, there = 0;
   map_L.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {

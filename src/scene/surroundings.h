@@ -21,7 +21,7 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         ThreadPool& pool);
 
 // Whether `young` is not `lost`, whose frame L would be in its frame Y so (T_Y_L): rays passed
-// through more than a fifth of the voxels of `lost` that were passed or lie where `young` is.
+// through more than an eighth of the voxels of `lost` that were passed or lie where `young` is.
 // Voxels count as passed with all occupied ones that touch them: what rays graze is passed on one
 // side alone.
 bool WouldBeSeenThrough(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
