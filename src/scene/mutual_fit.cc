@@ -52,8 +52,9 @@ class Fit {
     double cost = Cost(T_Y_L);
     for (const double voxels : kSteps_voxels) {
       const double step_m = voxels * map_L_.grid().resolution_m();
-      int rounds = 0;
-      while (rounds++ < kMostRounds && Improve(step_m, T_Y_L, cost)) continue;
+      for (int round = 0; round < kMostRounds; ++round) {
+        if (!Improve(step_m, T_Y_L, cost)) break;
+      }
     }
     return T_Y_L;
   }
@@ -74,7 +75,7 @@ class Fit {
     return of_Y_.weight * of_Y + kOfPassed * of_L_.weight * of_L;
   }
 
-  // By one step each way of each kind, in turn.
+  // Whether a step along x or y or about z, one way or the other, costs less: all that do are made.
   bool Improve(double step_m, Pose& T_Y_L, double& cost) const {
     constexpr double kMetresPerRad = 3;
     const double rad = step_m / kMetresPerRad;

@@ -88,7 +88,6 @@ TEST_F(Reidentification, OthersAreNotTakenForIt) {
   EXPECT_FALSE(taken_for_it(Seen(9, 12, 12.5, Half(kCar, 1))));
 }
 
-// One like it could be beside it.
 // A car is most of a van, as far as lengths and widths go.
 TEST_F(Reidentification, NothingMuchLowerIsTakenForIt) {
   const MovingObject lost = Seen(5, 0, 2, BoxSurface({4, 1.8, 2.1}, 0.08));
@@ -96,6 +95,7 @@ TEST_F(Reidentification, NothingMuchLowerIsTakenForIt) {
   EXPECT_FALSE(SeenAgain(lost, Seen(9, 3.5, 4, BoxSurface({4, 1.8, 1.3}, 0.08)), params_));
 }
 
+// One like it could be beside it.
 TEST_F(Reidentification, NothingIsKnownAgainByPosesThatAreFarOff) {
   const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
   const MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
