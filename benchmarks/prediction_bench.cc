@@ -67,7 +67,7 @@ struct Judged {
 
 // The recorded boxes, which were measured from the sensor, in the world of the scene.
 Truth TruthFor(const LidarFolder& folder, const SceneParams& params) {
-  if (params.sensor_pose_error_m == 0 && params.sensor_pose_error_rad == 0) return TruthOf(folder);
+  if (!params.MendsSensorPoses()) return TruthOf(folder);
   ThreadPool pool(1);
   SceneBuilder builder(params, {}, pool);
   WorldCorrections corrections(Duration::max());

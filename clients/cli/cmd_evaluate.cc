@@ -24,9 +24,10 @@ constexpr char kExamples[] =
     "  clearway evaluate sim:street --grazing 4 --wrong-labels 0.05 --filter-labels\n"
     "  clearway evaluate sim:street --unlabelled 1,2 --dynamic-life 1\n"
     "  clearway evaluate sim:occlusions --seed 3 --forget 0.5 --reidentify\n"
-    "  clearway evaluate kitti0000_fov --poses icp --motion track --rest-distance 0.6 --json\n"
-    "  clearway evaluate kitti0000_fov --poses oxts --motion track --sensor-error 0\n"
-    "  clearway evaluate kitti0000_fov --motion track --object-voxel 0.05 --html drive.html";
+    "  clearway evaluate ~/data/kitti0000_fov --poses icp --motion track --rest-distance 0.6 "
+    "--json\n"
+    "  clearway evaluate ~/data/kitti0000_fov --poses oxts --motion track --sensor-error 0\n"
+    "  clearway evaluate ~/data/kitti0000_fov --motion track --object-voxel 0.05 --html drive.html";
 
 struct Flags {
   std::string spec;
@@ -82,10 +83,8 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
 using AfterFrame = std::function<void(std::size_t k, Frame frame, const Frame& told,
                                       const FrameReport& report, SceneBuilder& builder)>;
 
-absl::Status MakeScene(const TrueSource& source, const Flags& flags, const Terminal& terminal,
-                       FrameTeller& teller, const AfterFrame& after) {
-  const SceneParams params = ParamsOf(source, flags);
-  if (auto status = Validate(params); !status.ok()) return status;
+absl::Status MakeScene(const TrueSource& source, const SceneParams& params, const Flags& flags,
+                       const Terminal& terminal, FrameTeller& teller, const AfterFrame& after) {
   if (source.frames.frame_count == 0) {
     return absl::FailedPreconditionError(flags.spec + ": holds no frames");
   }
@@ -111,22 +110,25 @@ absl::Status MakeScene(const TrueSource& source, const Flags& flags, const Termi
 
 // The scene that is evaluated next is made once before: what is predicted is judged by how the
 // world will have been corrected by then.
-absl::Status CarryTruth(const Flags& flags, const Terminal& terminal, TrueSource& source) {
+absl::Status CarryTruth(const SceneParams& params, const Flags& flags, const Terminal& terminal,
+                        TrueSource& source) {
   WorldCorrections corrections(Duration::max());
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t, const Frame& frame, const Frame&, const FrameReport& report,
                        SceneBuilder&) {
     corrections.Add(frame.stamp, *report.T_W_S * Inverse(frame.T_W_S));
   };
-  absl::Status status = MakeScene(source, flags, terminal, teller, add);
+  terminal.err
+      << "note: goes over the frames twice, first to see where registering puts the scans\n";
+  absl::Status status = MakeScene(source, params, flags, terminal, teller, add);
   if (!status.ok()) return status;
   source.truth = CarriedBy(std::move(corrections), source.truth);
   source.truth.description += ", where the sensor saw them (scans are registered to the map)";
   return absl::OkStatus();
 }
 
-absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags,
-                                    const Terminal& terminal) {
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams& params,
+                                    const Flags& flags, const Terminal& terminal) {
   Evaluator evaluator(source, flags.errors.unlabelled);
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t k, Frame frame, const Frame& told, const FrameReport& report,
@@ -134,7 +136,8 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const Flags& flags
     frame.T_W_S = *report.T_W_S;
     evaluator.Add(k, frame, teller.WithTrueNames(told, builder.Publish()));
   };
-  if (auto status = MakeScene(source, flags, terminal, teller, add); !status.ok()) return status;
+  auto status = MakeScene(source, params, flags, terminal, teller, add);
+  if (!status.ok()) return status;
   Evaluation found = std::move(evaluator).Result();
   found.identities = teller.identities();
   return found;
@@ -148,11 +151,11 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
   const SceneParams params = ParamsOf(*source, flags);
-  const bool mends = params.sensor_pose_error_m > 0 || params.sensor_pose_error_rad > 0;
-  if (mends && !source->simulation) {
-    if (auto status = CarryTruth(flags, terminal, *source); !status.ok()) return status;
+  if (auto status = Validate(params); !status.ok()) return status;
+  if (params.MendsSensorPoses() && !source->simulation) {
+    if (auto status = CarryTruth(params, flags, terminal, *source); !status.ok()) return status;
   }
-  auto found = Evaluate(*source, flags, terminal);
+  auto found = Evaluate(*source, params, flags, terminal);
   if (!found.ok()) return found.status();
   found->command = cli.command_line;
   if (!flags.html.empty()) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr char kExamples[] =
     "  clearway info crossing.cwr\n"
-    "  clearway info kitti0000_fov --poses oxts\n"
-    "  clearway info rgbd_dataset_freiburg3_walking_xyz\n"
+    "  clearway info ~/data/kitti0000_fov --poses oxts\n"
+    "  clearway info ~/data/rgbd_dataset_freiburg3_walking_xyz\n"
     "  clearway info map.bt\n"
     "  clearway info sim:street --json";
 

@@ -21,8 +21,8 @@ namespace {
 constexpr char kExamples[] =
     "  clearway replay crossing.cwr\n"
     "  clearway replay sim:street --noise table1 --rate 1\n"
-    "  clearway replay kitti0000_fov --poses icp --from 0 --to 59\n"
-    "  clearway replay rgbd_dataset_freiburg3_walking_xyz --stride 2 --max-depth 5";
+    "  clearway replay ~/data/kitti0000_fov --poses icp --from 0 --to 59\n"
+    "  clearway replay ~/data/rgbd_dataset_freiburg3_walking_xyz --stride 2 --max-depth 5";
 
 struct Flags {
   ServerFlags server;
@@ -113,7 +113,7 @@ void NoteResolution(const FrameSource& source, const SceneParams& params, std::o
 // Not an error either: it costs time to register scans.
 void NotePoseError(const FrameSource& source, const SceneParams& params, std::ostream& err) {
   const bool drift = source.sensor_pose_error_m > 0 || source.sensor_pose_error_rad > 0;
-  if (!drift || params.sensor_pose_error_m > 0 || params.sensor_pose_error_rad > 0) return;
+  if (!drift || params.MendsSensorPoses()) return;
   err << "note: the sensor's poses are off by about " << source.sensor_pose_error_m
       << " m; the server takes them as they are (clearway-server --scene-sensor-pose-error-m "
       << source.sensor_pose_error_m << " --scene-sensor-pose-error-rad "

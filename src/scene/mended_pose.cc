@@ -58,14 +58,10 @@ Pose CarriedOn(const ObjectMotion& motion, const Pose& T_W_from, MovingObject& o
   return motion.H_W * T_W_from;
 }
 
-bool MendsPoses(const SceneParams& params) {
-  return params.object_pose_error_m > 0 || params.object_pose_error_rad > 0;
-}
-
 Pose MendedPose(const Pose& T_W_T, const LabelledCloud& cloud,
                 std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
                 MovingObject& object) {
-  if (!MendsPoses(params)) return T_W_T;
+  if (!params.MendsObjectPoses()) return T_W_T;
   if (!object.told) object.told.emplace();
   ToldPose& told = *object.told;
   told.stamp = stamp;

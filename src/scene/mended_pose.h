@@ -17,13 +17,10 @@ inline constexpr Duration kNoGap = std::chrono::milliseconds(10);
 // one of them, the next may make good again. Else it begins anew.
 Pose CarriedOn(const ObjectMotion& motion, const Pose& T_W_from, MovingObject& object);
 
-// Whether poses are mended at all: if they are said to be off.
-bool MendsPoses(const SceneParams& params);
-
 // The object's T_W_O at `stamp`, of which the source says T_W_T: mended by how the points fit the
 // object's map (if there are any), by how far the source was off lately, and by where the object
 // went when it was seen last. What the source said is noted in object.told. T_W_T itself unless
-// MendsPoses.
+// params.MendsObjectPoses().
 Pose MendedPose(const Pose& T_W_T, const LabelledCloud& cloud,
                 std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
                 MovingObject& object);

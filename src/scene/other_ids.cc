@@ -191,7 +191,10 @@ std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately
     const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
     const VoxelMap& around_Y = around_young.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
-    if (!WouldBeSeenThrough(lost, young, match.T_Y_L, around_Y)) sure.push_back(match);
+    if (FitsThere(lost, young, match.T_Y_L, params) &&
+        !WouldBeSeenThrough(lost, young, match.T_Y_L, around_Y)) {
+      sure.push_back(match);
+    }
   }
   for (const Match& match : sure) {
     const MovingObject& lost = *objects.at(match.lost);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/mended_pose.h"
 #include "scene/object_motion.h"
 
 namespace clearway {
@@ -205,7 +204,7 @@ PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twis
     return GoesOnByItself(past, solid, params);
   };
   return BoundBy(MissesOf(track, since, solid, by_itself), track.size() > 1, velocity_O,
-                 params.motion == MotionModel::kLastMotion && MendsPoses(params));
+                 params.motion == MotionModel::kLastMotion && params.MendsObjectPoses());
 }
 
 PositionBound BoundAfter(const PositionBound& bound, double seconds) {

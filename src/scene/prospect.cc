@@ -1,6 +1,5 @@
 #include "scene/prospect.h"
 
-#include "scene/mended_pose.h"
 #include "scene/object_motion.h"
 #include "scene/position_bound.h"
 
@@ -18,11 +17,11 @@ Prospect ProspectOf(std::span<const StampedPose> track, Time since, const Twist&
     const PastMisses misses_of_last = MissesOf(track, since, solid, LastMotionOf);
     if (IsClearlyBetter(misses_of_last, misses)) {
       return {last_motion_O,
-              BoundBy(misses_of_last, has_motion, last_motion_O, MendsPoses(params))};
+              BoundBy(misses_of_last, has_motion, last_motion_O, params.MendsObjectPoses())};
     }
   }
   const bool of_two = params.motion == MotionModel::kLastMotion;
-  return {velocity_O, BoundBy(misses, has_motion, velocity_O, of_two && MendsPoses(params))};
+  return {velocity_O, BoundBy(misses, has_motion, velocity_O, of_two && params.MendsObjectPoses())};
 }
 
 }  // namespace clearway

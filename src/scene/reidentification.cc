@@ -155,15 +155,21 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   const std::vector<Eigen::Vector3d> points_Y = OccupiedCenters(young.map_O);
   const Pose T_Y_predicted = Inverse(first.T_W_O) * place->T_W_L;
   const Pose T_Y_L = Registered(lost, points_Y, T_Y_predicted, place->tolerance_m / 2, unseen_s);
-  const Eigen::Vector3d center_O = lost.observed_box_O.Center();
-  if ((T_Y_L * center_O - T_Y_predicted * center_O).norm() > place->tolerance_m) {
-    return std::nullopt;
-  }
-  std::vector<Eigen::Vector3d> points_L = points_Y;
+  if (!FitsThere(lost, young, T_Y_L, params)) return std::nullopt;
+  return T_Y_L;
+}
+
+bool FitsThere(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+               const SceneParams& params) {
+  const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(lost, young, params);
+  if (!place) return false;
+  const Pose T_W_L = FirstPose(young).T_W_O * T_Y_L;
+  const Eigen::Vector3d center_L = lost.observed_box_O.Center();
+  if ((T_W_L * center_L - place->T_W_L * center_L).norm() > place->tolerance_m) return false;
+  std::vector<Eigen::Vector3d> points_L = OccupiedCenters(young.map_O);
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;
-  if (!Fits(lost, points_L, params) || !IsAsLarge(lost, young, points_L)) return std::nullopt;
-  return T_Y_L;
+  return Fits(lost, points_L, params) && IsAsLarge(lost, young, points_L);
 }
 
 MovingObject Joined(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,

@@ -37,6 +37,11 @@ std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const Mo
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params);
 
+// Whether that may be so with L at T_Y_L: near where it was to be, the voxels fit there, and both
+// are about as large.
+bool FitsThere(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+               const SceneParams& params);
+
 // `lost` as it goes on, at the stamp, with the voxels and poses of `young`, and with what was
 // stated of its future. It keeps its id and its frame; the ids of `young` name it too.
 MovingObject Joined(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,

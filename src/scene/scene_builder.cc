@@ -85,7 +85,7 @@ SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits,
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
-  if (!MendsSensorPoses(scene_.params)) return ApplyInScene(frame);
+  if (!scene_.params.MendsSensorPoses()) return ApplyInScene(frame);
 
   WorldCorrections corrections = corrections_;
   const bool is_known = !corrections.Empty() && corrections.NewestStamp() == frame.stamp;

@@ -118,10 +118,6 @@ class MapAround {
 
 }  // namespace
 
-bool MendsSensorPoses(const SceneParams& params) {
-  return params.sensor_pose_error_m > 0 || params.sensor_pose_error_rad > 0;
-}
-
 Pose RegisterWorld(const Frame& frame_V, const VoxelMap& static_map_W,
                    const WorldCorrections& before, const SceneParams& params) {
   constexpr std::size_t kFewest = 50;  // points near the map

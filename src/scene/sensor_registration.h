@@ -8,9 +8,6 @@
 
 namespace clearway {
 
-// Whether scans are registered at all (SceneParams::sensor_pose_error_m, _rad).
-bool MendsSensorPoses(const SceneParams& params);
-
 // T_W_V at the frame's stamp, for a valid frame of the source's world V: with it the static points
 // fit the map best, and the sensor is not far from where the source says, nor from where it says
 // that the sensor has gone since the newest of the corrections so far. Where by both of these fewer

@@ -1,6 +1,7 @@
 #include "scene/surroundings.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "clearway/map/ray_caster.h"
@@ -39,14 +40,27 @@ void Add(const LabelledCloud& cloud, const Aabb& box_Y, const Pose& T_W_Y,
   if (update) around_Y.Update(*update, pool);
 }
 
-// With all that touches it.
-bool IsPassed(const VoxelMap& map_L, VoxelKey key, const Pose& T_Y_L, const VoxelMap& around_Y) {
-  return std::ranges::all_of(WithNeighbours(key), [&](VoxelKey near) {
-    if (map_L.State(near) != VoxelState::kOccupied) return true;
+// Along each axis, the voxel next to it that is nearer to the middle.
+std::array<VoxelKey, 3> FurtherIn(VoxelKey key, VoxelKey middle) {
+  const auto towards = [](int from, int to) { return from + (to > from) - (to < from); };
+  return {VoxelKey{towards(key.x, middle.x), key.y, key.z},
+          VoxelKey{key.x, towards(key.y, middle.y), key.z},
+          VoxelKey{key.x, key.y, towards(key.z, middle.z)}};
+}
+
+// With all of L that touches it, and with what lies further in: over a flat face rays may pass
+// within the very voxels that it lies in.
+bool IsPassed(const VoxelMap& map_L, VoxelKey key, VoxelKey middle, const Pose& T_Y_L,
+              const VoxelMap& around_Y) {
+  const auto is_free = [&](VoxelKey near) {
     const Eigen::Vector3d p_Y = T_Y_L * map_L.grid().CenterOf(near);
     return around_Y.grid().Addressable(p_Y) &&
            around_Y.State(around_Y.grid().KeyOf(p_Y)) == VoxelState::kFree;
-  });
+  };
+  return std::ranges::all_of(FurtherIn(key, middle), is_free) &&
+         std::ranges::all_of(WithNeighbours(key), [&](VoxelKey near) {
+           return map_L.State(near) != VoxelState::kOccupied || is_free(near);
+         });
 }
 
 }  // namespace
@@ -79,13 +93,14 @@ bool WouldBeSeenThrough(const MovingObject& lost, const MovingObject& young, con
                         const VoxelMap& around_Y) {
   constexpr std::size_t kOneIn = 8;
   const VoxelMap& map_L = lost.map_O;
+  const VoxelKey middle = map_L.grid().KeyOf(lost.observed_box_O.Center());
   std::size_t passed = 0, there = 0;
   map_L.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
     block.occupied.ForEach([&](int index) {
       const VoxelKey key = VoxelAt(block_key, index);
       const bool is_there = NearOccupied(young.map_O, T_Y_L * map_L.grid().CenterOf(key));
       there += is_there;
-      passed += !is_there && IsPassed(map_L, key, T_Y_L, around_Y);
+      passed += !is_there && IsPassed(map_L, key, middle, T_Y_L, around_Y);
     });
   });
   return kOneIn * passed > passed + there;

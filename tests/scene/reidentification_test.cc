@@ -115,6 +115,17 @@ TEST_F(Reidentification, JoinedLongAfterItWasSeenItHasItsLastPose) {
   EXPECT_EQ(dut.t_k(), young.t_k());
 }
 
+// Where the voxels fit is too far from where it was to be, or it is there and they do not.
+TEST_F(Reidentification, FittingElsewhereItIsAnother) {
+  const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
+  for (const double off_m : {0.0, 1.0, 3.0}) {
+    const MovingObject young = Seen(9, 3.5, 4, Half(kCar, 1), Pose::Translation(0, off_m, 0));
+    const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
+    EXPECT_EQ(FitsThere(lost, young, T_Y_L, params_), off_m < 2) << off_m;
+    EXPECT_FALSE(FitsThere(lost, young, T_Y_L * Pose::Translation(0, 0.4, 0), params_)) << off_m;
+  }
+}
+
 // Whatever lever arm there is between the two frames, and however fast it turns.
 TEST_F(Reidentification, JoinedItMovesAsItDid) {
   const MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));

@@ -88,6 +88,9 @@ struct SceneParams {
   std::vector<Aabb> self_filter_S;  // points in here are the robot's own body: left out
 
   OccupancyModel Model() const { return OccupancyModel(occupancy); }
+  // Whether views of objects are registered to their maps, and scans to the static map.
+  bool MendsObjectPoses() const { return object_pose_error_m > 0 || object_pose_error_rad > 0; }
+  bool MendsSensorPoses() const { return sensor_pose_error_m > 0 || sensor_pose_error_rad > 0; }
   bool operator==(const SceneParams&) const = default;
 };
 
