@@ -5,22 +5,17 @@
 #include <limits>
 
 #include "clearway/geometry/distance.h"
+#include "clearway/map/voxel_neighbours.h"
 
 namespace clearway {
 namespace {
 
 bool IsCovered(const VoxelMap& map_O, const Eigen::Vector3d& p_O) {
   const VoxelGrid& grid = map_O.grid();
-  const VoxelKey middle = grid.KeyOf(p_O);
-  for (int neighbor = 0; neighbor < 27; ++neighbor) {
-    const VoxelKey key{middle.x + neighbor % 3 - 1, middle.y + neighbor / 3 % 3 - 1,
-                       middle.z + neighbor / 9 - 1};
-    if (map_O.State(key) == VoxelState::kOccupied &&
-        PointBoxDistance(p_O, grid.BoxOf(key)) <= 0.5 * grid.resolution_m()) {
-      return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(WithNeighbours(grid.KeyOf(p_O)), [&](VoxelKey key) {
+    return map_O.State(key) == VoxelState::kOccupied &&
+           PointBoxDistance(p_O, grid.BoxOf(key)) <= 0.5 * grid.resolution_m();
+  });
 }
 
 }  // namespace

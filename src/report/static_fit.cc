@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clearway/geometry/distance.h"
+#include "clearway/map/voxel_neighbours.h"
 
 namespace clearway {
 namespace {
@@ -57,16 +58,6 @@ class Surroundings {
   std::vector<const Placed*> near_;
 };
 
-// Or itself.
-bool AnyBeside(const VoxelMap& map, VoxelKey key, VoxelState state) {
-  for (int neighbor = 0; neighbor < 27; ++neighbor) {
-    const VoxelKey beside{key.x + neighbor % 3 - 1, key.y + neighbor / 3 % 3 - 1,
-                          key.z + neighbor / 9 - 1};
-    if (map.State(beside) == state) return true;
-  }
-  return false;
-}
-
 Confusion::Said SaidOf(VoxelState state) {
   switch (state) {
     case VoxelState::kFree:
@@ -115,12 +106,12 @@ StaticFit FitOf(const VoxelMap& map_W, const World& world, const MetSurfaces& me
       }
       if (inside) return;
       ++fit.truly_free;
-      fit.free_found += !occupied || AnyBeside(map_W, key, VoxelState::kFree);
+      fit.free_found += !occupied || AtOrBeside(map_W, key, VoxelState::kFree);
     });
   });
   for (const auto& [key, p_W] : met.Of(kStaticLabel)) {
     ++fit.met;
-    fit.met_found += AnyBeside(map_W, key, VoxelState::kOccupied);
+    fit.met_found += AtOrBeside(map_W, key, VoxelState::kOccupied);
     ++fit.grid.truly_occupied[SaidOf(map_W.State(key))];
   }
   return fit;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clearway/map/voxel_neighbours.h"
+
 namespace clearway {
 namespace {
 
@@ -71,13 +73,9 @@ bool VoxelMarks::Holds(VoxelKey key, std::int32_t padding) const {
 }
 
 bool VoxelMarks::AtOrBeside(VoxelKey key) const {
-  if (!Holds(key, 1)) return false;
-  for (int neighbor = 0; neighbor < 27; ++neighbor) {
-    const VoxelKey beside{key.x + neighbor % 3 - 1, key.y + neighbor / 3 % 3 - 1,
-                          key.z + neighbor / 9 - 1};
-    if (Holds(beside, 0) && marks_[IndexOf(beside)]) return true;
-  }
-  return false;
+  return Holds(key, 1) && std::ranges::any_of(WithNeighbours(key), [&](VoxelKey beside) {
+           return Holds(beside, 0) && marks_[IndexOf(beside)];
+         });
 }
 
 std::size_t VoxelMarks::IndexOf(VoxelKey key) const {

@@ -5,8 +5,8 @@
 
 #include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
+#include "clearway/map/voxel_neighbours.h"
 #include "scene/direction_grid.h"
-#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {

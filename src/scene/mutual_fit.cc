@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "clearway/map/voxel_neighbours.h"
 #include "scene/occupied_centers.h"
-#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {

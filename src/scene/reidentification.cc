@@ -4,12 +4,12 @@
 #include <array>
 #include <vector>
 
+#include "clearway/map/voxel_neighbours.h"
 #include "scene/completion.h"
 #include "scene/occupied_centers.h"
 #include "scene/position_bound.h"
 #include "scene/same_object.h"
 #include "scene/view_registration.h"
-#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "clearway/map/ray_caster.h"
+#include "clearway/map/voxel_neighbours.h"
 #include "scene/rays_near.h"
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
-#include "scene/voxel_neighbours.h"
 
 namespace clearway {
 namespace {

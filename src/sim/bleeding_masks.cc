@@ -5,6 +5,7 @@
 
 #include "absl/container/flat_hash_map.h"
 #include "clearway/map/voxel_key.h"
+#include "clearway/map/voxel_neighbours.h"
 
 namespace clearway {
 namespace {
@@ -25,11 +26,10 @@ class ObjectDirections {
 
   // The label of the nearest within reach; static if there is none.
   ObjectId Nearest(const Eigen::Vector3d& direction_S) const {
-    const VoxelKey at = cells_.KeyOf(direction_S);
     ObjectId nearest = kStaticLabel;
     double best = reach_;
-    for (int i = 0; i < 27; ++i) {
-      const auto cell = seen_.find({at.x + i % 3 - 1, at.y + i / 3 % 3 - 1, at.z + i / 9 - 1});
+    for (const VoxelKey key : WithNeighbours(cells_.KeyOf(direction_S))) {
+      const auto cell = seen_.find(key);
       if (cell == seen_.end()) continue;
       for (const Seen& seen : cell->second) {
         const double apart = (seen.direction_S - direction_S).norm();

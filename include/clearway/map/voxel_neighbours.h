@@ -17,11 +17,15 @@ inline std::array<VoxelKey, 27> WithNeighbours(VoxelKey at) {
   return keys;
 }
 
+// Whether the voxel is in that state, or one that touches it.
+inline bool AtOrBeside(const VoxelMap& map, VoxelKey at, VoxelState state) {
+  return std::ranges::any_of(WithNeighbours(at),
+                             [&](VoxelKey key) { return map.State(key) == state; });
+}
+
 // Whether the point's voxel is occupied, or one that touches it.
 inline bool NearOccupied(const VoxelMap& map, const Eigen::Vector3d& p) {
-  if (!map.grid().Addressable(p)) return false;
-  return std::ranges::any_of(WithNeighbours(map.grid().KeyOf(p)),
-                             [&](VoxelKey key) { return map.State(key) == VoxelState::kOccupied; });
+  return map.grid().Addressable(p) && AtOrBeside(map, map.grid().KeyOf(p), VoxelState::kOccupied);
 }
 
 }  // namespace clearway
