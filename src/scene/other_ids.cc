@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/mutual_fit.h"
+#include "scene/other_shape.h"
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
 
@@ -192,7 +193,7 @@ std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately
     const VoxelMap& around_Y = around_young.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
     if (FitsThere(lost, young, match.T_Y_L, params) &&
-        !WouldBeSeenThrough(lost, young, match.T_Y_L, around_Y)) {
+        !HasOtherShape(lost, young, match.T_Y_L, around_Y)) {
       sure.push_back(match);
     }
   }

@@ -1,11 +1,9 @@
 #include "scene/surroundings.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "clearway/map/ray_caster.h"
-#include "clearway/map/voxel_neighbours.h"
 #include "scene/rays_near.h"
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
@@ -15,7 +13,7 @@ namespace {
 
 // In O of the young one: where those would be that it could be, as whose part it is seen.
 Aabb BoxOfLost(const ObjectMap& objects, const MovingObject& young, const SceneParams& params) {
-  constexpr double kBeyond_voxels = 3;
+  constexpr double kBeyond_voxels = 6;
   const Pose T_Y_W = Inverse(FirstPose(young).T_W_O);
   const Aabb young_Y = young.observed_box_O.Padded(kBeyond_voxels * params.object_resolution_m);
   Aabb box_Y;
@@ -38,29 +36,6 @@ void Add(const LabelledCloud& cloud, const Aabb& box_Y, const Pose& T_W_Y,
   std::ranges::replace(rays.kinds, RayEnd::kBlock, RayEnd::kHit);
   const auto update = RayCaster(pool).Cast(around_Y.grid(), rays.Cloud(), {});
   if (update) around_Y.Update(*update, pool);
-}
-
-// Along each axis, the voxel next to it that is nearer to the middle.
-std::array<VoxelKey, 3> FurtherIn(VoxelKey key, VoxelKey middle) {
-  const auto towards = [](int from, int to) { return from + (to > from) - (to < from); };
-  return {VoxelKey{towards(key.x, middle.x), key.y, key.z},
-          VoxelKey{key.x, towards(key.y, middle.y), key.z},
-          VoxelKey{key.x, key.y, towards(key.z, middle.z)}};
-}
-
-// With all of L that touches it, and with what lies further in: over a flat face rays may pass
-// within the very voxels that it lies in.
-bool IsPassed(const VoxelMap& map_L, VoxelKey key, VoxelKey middle, const Pose& T_Y_L,
-              const VoxelMap& around_Y) {
-  const auto is_free = [&](VoxelKey near) {
-    const Eigen::Vector3d p_Y = T_Y_L * map_L.grid().CenterOf(near);
-    return around_Y.grid().Addressable(p_Y) &&
-           around_Y.State(around_Y.grid().KeyOf(p_Y)) == VoxelState::kFree;
-  };
-  return std::ranges::all_of(FurtherIn(key, middle), is_free) &&
-         std::ranges::all_of(WithNeighbours(key), [&](VoxelKey near) {
-           return map_L.State(near) != VoxelState::kOccupied || is_free(near);
-         });
 }
 
 }  // namespace
@@ -87,23 +62,6 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
     around.emplace(id, std::move(around_Y));
   }
   return around;
-}
-
-bool WouldBeSeenThrough(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-                        const VoxelMap& around_Y) {
-  constexpr std::size_t kOneIn = 8;
-  const VoxelMap& map_L = lost.map_O;
-  const VoxelKey middle = map_L.grid().KeyOf(lost.observed_box_O.Center());
-  std::size_t passed = 0, there = 0;
-  map_L.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
-    block.occupied.ForEach([&](int index) {
-      const VoxelKey key = VoxelAt(block_key, index);
-      const bool is_there = NearOccupied(young.map_O, T_Y_L * map_L.grid().CenterOf(key));
-      there += is_there;
-      passed += !is_there && IsPassed(map_L, key, middle, T_Y_L, around_Y);
-    });
-  });
-  return kOneIn * passed > passed + there;
 }
 
 }  // namespace clearway

@@ -20,11 +20,4 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         const LabelledCloud& cloud, Time stamp, const SceneParams& params,
                         ThreadPool& pool);
 
-// Whether `young` is not `lost`, whose frame L would be in its frame Y so (T_Y_L): rays passed
-// through more than an eighth of the voxels of `lost` that were passed or lie where `young` is.
-// Voxels count as passed with all occupied ones that touch them (an edge that rays graze is passed
-// on one side alone) and with what lies further in (a flat face that they graze is not passed).
-bool WouldBeSeenThrough(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-                        const VoxelMap& around_Y);
-
 }  // namespace clearway

@@ -1,7 +1,10 @@
 // clearway replay against a real server.
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "clients/cli_server.h"
 #include "io/lidar_example.h"
@@ -63,12 +66,17 @@ TEST_F(CliServer, ARecordingMakesTheSameSceneAsItsSource) {
   EXPECT_EQ(from_source["scene_hash"].get<std::string>().size(), 32u);
 }
 
-TEST_F(CliServer, ReplayTellsOfPosesThatDrift) {
-  const TemporaryFolder folder;
+// A folder with poses of both kinds.
+std::string WriteExampleWithOxts(const TemporaryFolder& folder) {
   WriteExample(folder);
   folder.Write("poses_oxts.csv", kPoses);
   folder.Write("objects_oxts.csv", kObjects);
-  const std::string path = folder.path();
+  return folder.path();
+}
+
+TEST_F(CliServer, ReplayTellsOfPosesThatDrift) {
+  const TemporaryFolder folder;
+  const std::string path = WriteExampleWithOxts(folder);
   const Finished icp = Clearway({"replay", path, "--poses", "icp"});
   const Finished oxts = Clearway({"replay", path, "--poses", "oxts"});
   EXPECT_EQ(icp.exit_code, 0) << icp.err;
@@ -77,6 +85,16 @@ TEST_F(CliServer, ReplayTellsOfPosesThatDrift) {
   EXPECT_THAT(oxts.err, HasSubstr("--scene-sensor-pose-error-m 1 "));
   const Finished quiet = Clearway({"replay", path, "--poses", "oxts", "--quiet"});
   EXPECT_EQ(quiet.err, "");
+}
+
+TEST_F(CliServer, ReplayDoesNotTellOfThemAServerThatRegistersScans) {
+  const TemporaryFolder folder;
+  const std::string path = WriteExampleWithOxts(folder);
+  const std::vector<std::string> registers = {"--scene-sensor-pose-error-m", "1"};
+  server_ = std::make_unique<ServerProcess>(registers);
+  const Finished oxts = Clearway({"replay", path, "--poses", "oxts"});
+  EXPECT_EQ(oxts.exit_code, 0) << oxts.err;
+  EXPECT_THAT(oxts.err, Not(HasSubstr("note")));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Shape {
 const Aabb kUpright{{-0.25, -0.2, -0.9}, {0.25, 0.2, 0.85}};
 const Shape kPedestrian{{kUpright}};
 const Shape kCyclist{{kUpright, {{-0.85, -0.2, -0.9}, {0.85, 0.2, 0}}}};
+const Shape kChild{{{{-0.2, -0.2, -0.9}, {0.2, 0.2, 0.4}}}};
 const Shape kBox{{{{-0.85, -0.2, -0.9}, {0.85, 0.2, 0.85}}}};
 Shape CarWithRoofAt(double z_m) { return {{{{-1.5, -0.8, -1.5}, {1.5, 0.8, z_m}}}}; }
 
@@ -186,6 +187,27 @@ TEST_F(SeenThrough, IsNotTheOneThatWasLostWhenNothingLiesBehindAnyMore) {
   sky_from_ = 36;
   LoseAndSee(kCyclist, kPedestrian);
   EXPECT_FALSE(Same(1, 2));
+}
+
+// By four or five voxels.
+TEST_F(SeenThrough, IsNobodyMuchSmallerOrLarger) {
+  const Shape longer{{{{-0.85, -0.2, -0.9}, {1.25, 0.2, 0.85}}}};
+  const Shape car{{{{-2.2, -0.8, -1.5}, {2.2, 0.8, -0.2}}}};
+  const Shape hatchback{{{{-1.8, -0.8, -1.5}, {2.2, 0.8, -0.2}}}};
+  using Pair = std::pair<Shape, Shape>;
+  for (const auto& [lost, young] : {Pair{kPedestrian, kChild},
+                                    {kChild, kPedestrian},
+                                    {kBox, longer},
+                                    {longer, kBox},
+                                    {car, hatchback},
+                                    {hatchback, car}}) {
+    BeginAnew();
+    LoseAndSee(lost, young);
+    EXPECT_FALSE(Same(1, 2)) << lost.boxes_B[0].max << young.boxes_B[0].max;
+    BeginAnew();
+    LoseAndSee(lost, lost);
+    EXPECT_TRUE(Same(1, 2)) << lost.boxes_B[0].max;
+  }
 }
 
 TEST_F(SeenThrough, IsNobodyWhoIsThere) {
