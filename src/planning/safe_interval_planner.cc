@@ -17,7 +17,7 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-// What is left of the way counts so much until there is a path.
+// What is left of the way counts so much where a first path is looked for greedily.
 constexpr double kGreedy = 16;
 constexpr std::size_t kMostGoals = 10;
 
@@ -136,7 +136,7 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   impl_->shown_from.reset();
   while (more && !enough && !until()) {
     const bool first = !impl_->search.led();
-    const bool earlier = impl_->search.Search(first ? kGreedy : 1, *pdef_->getGoal(), until);
+    const bool earlier = FindEarlier(until);
     ShowProgress();
     if (earlier) {
       enough = impl_->search.found() && AddSolution();
@@ -151,6 +151,14 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   if (impl_->search.found()) return ob::PlannerStatus::EXACT_SOLUTION;
   if (!more) return ob::PlannerStatus::ABORT;
   return ob::PlannerStatus::TIMEOUT;
+}
+
+// A greedy search may spend all that it may ask on dead ends near the goal, the more the denser the
+// places are; one that is not comes by the other ways, too.
+bool SafeIntervalPlanner::FindEarlier(const ob::PlannerTerminationCondition& until) {
+  AnytimeSearch& search = impl_->search;
+  if (!search.led() && search.Search(kGreedy, *pdef_->getGoal(), until)) return true;
+  return !until() && search.Search(1, *pdef_->getGoal(), until);
 }
 
 // Whether the objective asks for no better one.

@@ -31,10 +31,11 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 // as Karaman and Frazzoli's PRM*, "Sampling-based Algorithms for Optimal Motion Planning", 2011, in
 // batches and with the most promising edge first as Gammell et al.'s BIT*, 2015.)
 //
-// A first path is looked for greedily; then earlier ones, with more and more places, of which only
-// those are kept that an earlier arrival can visit. A latest time that leaves little to spare makes
-// the first path harder to find, not easier: there is none to be improved until one is in time. A
-// robot is at rest or at full speed: it can stop and start at once.
+// A first path is looked for greedily and, where that finds none, once more among the same places
+// by the earliest arrival; then earlier ones, with more and more places, of which only those are
+// kept that an earlier arrival can visit. A latest time that leaves little to spare makes the first
+// path harder to find, not easier: there is none to be improved until one is in time. A robot is at
+// rest or at full speed: it can stop and start at once.
 //
 // Over the space information of MakeSpaceInformation motions are proved and waits are proved safe
 // intervals. Over any other the motion validator is asked; it must refuse motions backwards in
@@ -76,6 +77,8 @@ class SafeIntervalPlanner : public ompl::base::Planner {
   struct Impl;
   void AddStarts();
   void AddGoals(const ompl::base::PlannerTerminationCondition& until);
+  // Whether an earlier arrival was found among the places that there are.
+  bool FindEarlier(const ompl::base::PlannerTerminationCondition& until);
   bool AddSolution();
 
   std::unique_ptr<Impl> impl_;
