@@ -82,8 +82,8 @@ void AddSimulationFlags(CLI::App* command, SourceFlags* flags) {
   const char* const group = "Simulator (of sim:NAME alone)";
   command
       ->add_option("--seed", flags->seed,
-                   "Seed of all noise, and of the worlds of sim:occlusions and\n"
-                   "sim:queues: other ones for each seed")
+                   "Seed of all noise, and of the worlds of sim:occlusions,\n"
+                   "sim:queues and sim:swaps: other ones for each seed")
       ->check(NotNegative())
       ->capture_default_str()
       ->group(group);

@@ -7,7 +7,7 @@ namespace clearway {
 namespace {
 
 // The sensor stands at y = 0; the roads are beyond the walls.
-constexpr double kWallsYM = 4.5;
+constexpr double kWallsYM = 4.5, kWallsThickM = 0.3;
 constexpr double kSensorHeightM = 1.93;
 constexpr double kLasts_s = 20;
 constexpr std::size_t kFrames = 200;  // at 10 Hz
@@ -21,7 +21,12 @@ double Between(Random& random, double low, double high) {
 bool Heads(Random& random) { return random.Uniform() < 0.5; }
 
 Body WallBefore(double x_m, double width_m) {
-  return StaticBox("wall", PlacedAt(x_m, kWallsYM, 1.45), {width_m, 0.3, 3.0});
+  return StaticBox("wall", PlacedAt(x_m, kWallsYM, 1.45), {width_m, kWallsThickM, 3.0});
+}
+
+// By its far edges.
+double WallFor(double hidden_m, double y_m) {
+  return hidden_m * (kWallsYM + kWallsThickM / 2) / y_m;
 }
 
 Drive UnevenDrive(Random& random, const Pose& T_W_B, double speed_mps, double slowest,

@@ -18,6 +18,7 @@ SimulationSpec LabSpec();
 SimulationSpec SmallSpec();
 SimulationSpec OcclusionsSpec(std::uint64_t seed);
 SimulationSpec QueuesSpec(std::uint64_t seed);
+SimulationSpec SwapsSpec(std::uint64_t seed);
 SimulationSpec ArticulatedSpec();
 
 // At x, y, z, turned to the left about z.

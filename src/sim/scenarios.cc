@@ -23,12 +23,13 @@ SimulationSpec Always(std::uint64_t) {
   return kSpec();
 }
 
-constexpr std::array<Scenario, 7> kScenarios = {{{"crossing", Always<CrossingSpec>},
+constexpr std::array<Scenario, 8> kScenarios = {{{"crossing", Always<CrossingSpec>},
                                                  {"street", Always<StreetSpec>},
                                                  {"lab", Always<LabSpec>},
                                                  {"small", Always<SmallSpec>},
                                                  {"occlusions", OcclusionsSpec},
                                                  {"queues", QueuesSpec},
+                                                 {"swaps", SwapsSpec},
                                                  {"articulated", Always<ArticulatedSpec>}}};
 
 absl::Status Refused(const char* field, double value, const char* limit) {
