@@ -90,8 +90,7 @@ void AddSimulate(Cli& cli) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = AddCommand(cli, "simulate", "Write a simulated drive as a recording",
                                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
-  command->add_option("scenario", flags->scenario, absl::StrJoin(ScenarioNames(), "|"))
-      ->required();
+  command->add_option("scenario", flags->scenario, absl::StrJoin(ScenarioNames(), "|"))->required();
   command->add_option("-o,--out", flags->out, "The recording to write")->required();
   command->add_flag("--force", flags->force, "Replace a file that exists");
   command

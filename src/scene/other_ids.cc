@@ -134,15 +134,6 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
          });
 }
 
-// By what was seen around either.
-bool HaveOtherShapes(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-                     const Surroundings& around) {
-  if (IsSeenThrough(lost, young, T_Y_L, around.at(young.id))) return true;
-  const auto around_lost = around.find(lost.id);
-  return around_lost != around.end() &&
-         IsSeenThrough(young, lost, Inverse(T_Y_L), around_lost->second);
-}
-
 }  // namespace
 
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
@@ -192,16 +183,17 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 }
 
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around, const SceneParams& params, ThreadPool& pool) {
+                          const Surroundings& around_young, const SceneParams& params,
+                          ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
   std::vector<Match> sure;
   for (Match match : matches) {
     if (!IsSure(match, matches, objects, dropped_lately, stamp, params)) continue;
     const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
-    const VoxelMap& around_Y = around.at(match.young);
+    const VoxelMap& around_Y = around_young.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
     if (FitsThere(lost, young, match.T_Y_L, params) &&
-        !HaveOtherShapes(lost, young, match.T_Y_L, around)) {
+        !HasOtherShape(lost, young, match.T_Y_L, around_Y)) {
       sure.push_back(match);
     }
   }

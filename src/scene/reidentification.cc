@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "clearway/map/voxel_neighbours.h"
@@ -127,12 +126,6 @@ MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& 
   return lost;
 }
 
-// Things stay on the ground: laid higher or lower, one shape fits another.
-double HeightTolerance_m(double unseen_s, const SceneParams& params) {
-  constexpr double kVoxels = 1.5, kDrift_mps = 0.05;
-  return kVoxels * params.object_resolution_m + kDrift_mps * unseen_s + params.object_pose_error_m;
-}
-
 }  // namespace
 
 std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const MovingObject& young,
@@ -141,12 +134,12 @@ std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const Mo
   const StampedPose& first = FirstPose(young);
   const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
-  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
-  const std::optional<double> tolerance_m = Tolerance_m(lost, unseen_s, params);
+  const std::optional<double> tolerance_m =
+      Tolerance_m(lost, ToSeconds(first.stamp - lost.t_k()), params);
   if (!tolerance_m || !MayTouch(lost, predicted.T_W_O, young, first.T_W_O, *tolerance_m)) {
     return std::nullopt;
   }
-  return PlaceIfSame{predicted.T_W_O, *tolerance_m, HeightTolerance_m(unseen_s, params)};
+  return PlaceIfSame{predicted.T_W_O, *tolerance_m};
 }
 
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
@@ -172,10 +165,7 @@ bool FitsThere(const MovingObject& lost, const MovingObject& young, const Pose& 
   if (!place) return false;
   const Pose T_W_L = FirstPose(young).T_W_O * T_Y_L;
   const Eigen::Vector3d center_L = lost.observed_box_O.Center();
-  const Eigen::Vector3d off_W_m = T_W_L * center_L - place->T_W_L * center_L;
-  if (off_W_m.norm() > place->tolerance_m || std::abs(off_W_m.z()) > place->height_tolerance_m) {
-    return false;
-  }
+  if ((T_W_L * center_L - place->T_W_L * center_L).norm() > place->tolerance_m) return false;
   std::vector<Eigen::Vector3d> points_L = OccupiedCenters(young.map_O);
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;

@@ -22,7 +22,6 @@ inline constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 struct PlaceIfSame {
   Pose T_W_L;  // where `lost` was to be when `young` was first seen
   double tolerance_m;
-  double height_tolerance_m;  // of that, along z of W
 };
 
 // None if `young` is nowhere near, whatever may be seen of it yet; if it could be another one like

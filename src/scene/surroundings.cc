@@ -11,15 +11,12 @@
 namespace clearway {
 namespace {
 
-// So far beyond what is seen of an object.
-constexpr double kBeyond_voxels = 6;
-
-// In O of the young one: it and what is close to it, and where those would be that it could be, as
-// whose part it is seen.
-Aabb BoxToLookAt(const ObjectMap& objects, const MovingObject& young, const SceneParams& params) {
+// In O of the young one: where those would be that it could be, as whose part it is seen.
+Aabb BoxOfLost(const ObjectMap& objects, const MovingObject& young, const SceneParams& params) {
+  constexpr double kBeyond_voxels = 6;
   const Pose T_Y_W = Inverse(FirstPose(young).T_W_O);
   const Aabb young_Y = young.observed_box_O.Padded(kBeyond_voxels * params.object_resolution_m);
-  Aabb box_Y = young.observed_box_O.Empty() ? Aabb() : young_Y;
+  Aabb box_Y;
   for (const auto& [id, lost] : objects) {
     if (!WasLostBefore(*lost, young)) continue;
     const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(*lost, young, params);
@@ -48,12 +45,8 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         ThreadPool& pool) {
   Surroundings around;
   for (const auto& [id, young] : objects) {
-    if (young->given()) continue;
+    if (young->given() || !IsYoung(*young, stamp)) continue;
     const auto known = before.find(id);
-    if (!IsYoung(*young, stamp)) {
-      if (known != before.end()) around.insert(*known);
-      continue;
-    }
     // What was first seen now is another one than that which went by its id before.
     const bool goes_on = known != before.end() && young->first_seen < stamp;
     VoxelMap around_Y =
@@ -63,7 +56,7 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
         young->t_k() == stamp || (young->velocity_O && stamp - young->t_k() <= kOutOfSight);
     if (is_placed) {
       const Pose T_W_Y = PredictPose(*young, stamp, params.horizon).T_W_O;
-      const Aabb box_Y = BoxToLookAt(objects, *young, params);
+      const Aabb box_Y = BoxOfLost(objects, *young, params);
       if (!box_Y.Empty()) Add(cloud, box_Y, T_W_Y, params, pool, around_Y);
     }
     around.emplace(id, std::move(around_Y));

@@ -1,4 +1,4 @@
-// What scans show around objects that may have been lost before, or may be lost.
+// What scans show around objects that may have been lost before.
 #pragma once
 
 #include <map>
@@ -10,12 +10,12 @@
 
 namespace clearway {
 
-// By id of an object, in its O: what lay about it when it was young (IsYoung), and where one of
-// those that were lost before would be if it were that one.
+// By id of a young object (IsYoung), in its O: what lies about it, where one of those that were
+// lost before would be if it were that one.
 using Surroundings = std::map<ObjectId, VoxelMap>;
 
-// With what the rays of that stamp's cloud pass and hit about those of the young objects of which
-// is known where they are then. What is no longer there is left out.
+// With what the rays of that stamp's cloud pass and hit about those of the objects of which is
+// known where they are then. What is no longer young is left out.
 Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         const LabelledCloud& cloud, Time stamp, const SceneParams& params,
                         ThreadPool& pool);

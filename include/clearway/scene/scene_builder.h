@@ -109,7 +109,7 @@ class SceneBuilder {
   // With SceneParams::reidentify: they could be seen again; and what rays show around those, by
   // their id and in their O, that could have been lost before.
   std::vector<std::shared_ptr<const MovingObject>> dropped_lately_;
-  std::map<ObjectId, VoxelMap> around_objects_;
+  std::map<ObjectId, VoxelMap> around_young_;
   WorldCorrections corrections_;
   FrameLimits limits_;
   ThreadPool* pool_;
