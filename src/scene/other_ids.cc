@@ -1,5 +1,6 @@
 #include "scene/other_ids.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -134,6 +135,20 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
          });
 }
 
+// Whether they are two, by what was seen around either and by how far one would have been lifted
+// onto the other. Each doubt is told in parts of what is enough alone; they add up as errors do
+// that have nothing to do with each other. What is known of the lost one is of many views, blurred
+// by the errors of their poses: of it rays may pass more than of the new one, seen from one side.
+bool AreTwo(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+            const Surroundings& around, const SceneParams& params) {
+  constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025;
+  const Eigen::Vector3d doubts(
+      ShareSeenThrough(lost, young, T_Y_L, around.at(young.id)) / kEnoughOfLost,
+      ShareSeenThrough(young, lost, Inverse(T_Y_L), around.at(lost.id)) / kEnoughOfYoung,
+      HeightOff(lost, young, T_Y_L, params));
+  return doubts.norm() > 1;
+}
+
 }  // namespace
 
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
@@ -183,17 +198,16 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 }
 
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around_young, const SceneParams& params,
-                          ThreadPool& pool) {
+                          const Surroundings& around, const SceneParams& params, ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
   std::vector<Match> sure;
   for (Match match : matches) {
     if (!IsSure(match, matches, objects, dropped_lately, stamp, params)) continue;
     const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
-    const VoxelMap& around_Y = around_young.at(match.young);
+    const VoxelMap& around_Y = around.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
     if (FitsThere(lost, young, match.T_Y_L, params) &&
-        !HasOtherShape(lost, young, match.T_Y_L, around_Y)) {
+        !AreTwo(lost, young, match.T_Y_L, around, params)) {
       sure.push_back(match);
     }
   }

@@ -31,10 +31,9 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 // Joins objects that were first seen not long ago to those they are, which were lost before.
 // Nothing is joined that could be one of two, dropped ones included, nor what is a part of
 // something or has parts, nor what, laid on the lost one as well as it can be, is not near where
-// that one was to be, or has another shape by what was seen around it (`around_young`, of every
-// young object: see SeenAround). Returns how many were.
+// that one was to be, or has another shape by what was seen around both (`around`, of all that are
+// not given: see SeenAround). Returns how many were.
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around_young, const SceneParams& params,
-                          ThreadPool& pool);
+                          const Surroundings& around, const SceneParams& params, ThreadPool& pool);
 
 }  // namespace clearway

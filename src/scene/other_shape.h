@@ -1,4 +1,4 @@
-// Whether what is seen is another object than a lost one, by the shapes of both.
+// How an object is contradicted by what was seen around another that it might be.
 #pragma once
 
 #include "clearway/map/voxel_map.h"
@@ -6,16 +6,13 @@
 
 namespace clearway {
 
-// Whether `young` is not `lost`, whose frame L would be in its frame Y so (T_Y_L), by what rays
-// passed and hit around it (`around_Y`, in Y; see SeenAround). So it is if
-// - rays passed through more than an eighth of the voxels of `lost` that were passed or lie where
-//   `young` is. Voxels count as passed with all occupied ones that touch them (an edge that rays
-//   graze is passed on one side alone) and with what lies further in (a flat face that they graze
-//   is not passed);
-// - `lost` had an end, two layers of voxels or more across an axis of L, where rays passed;
-// - `young` reaches two layers or more beyond all that was ever seen of `lost`, above, below, or
-//   along the longer of that one's x and y: it is another, too, if `lost` was seen in part.
-bool HasOtherShape(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-                   const VoxelMap& around_Y);
+// If `object` were `other`, and its frame O in that one's frame P so (T_P_O): of its voxels that
+// rays passed or that lie where `other` is, the share that they passed, by what they passed and hit
+// around `other` (`around_P`, in P; see SeenAround). Voxels count as passed with all occupied ones
+// that touch them (an edge that rays graze is passed on one side alone) and with what lies further
+// in (a flat face that they graze is not passed). All, 1, if they passed an end of `object`: two
+// layers of voxels or more across an axis of O.
+double ShareSeenThrough(const MovingObject& object, const MovingObject& other, const Pose& T_P_O,
+                        const VoxelMap& around_P);
 
 }  // namespace clearway

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "clearway/map/voxel_neighbours.h"
@@ -126,6 +128,19 @@ MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& 
   return lost;
 }
 
+// Things stay on the ground; lifted a little, one shape fits another.
+double HeightTolerance_m(double unseen_s, const SceneParams& params) {
+  constexpr double kVoxels = 1.5, kDrift_mps = 0.05;
+  return kVoxels * params.object_resolution_m + kDrift_mps * unseen_s + params.object_pose_error_m;
+}
+
+// In W, of the middle of the lost one, from where it was to be to where it is with L at T_Y_L.
+Eigen::Vector3d MovedBy_m(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+                          const PlaceIfSame& place) {
+  const Eigen::Vector3d center_L = lost.observed_box_O.Center();
+  return FirstPose(young).T_W_O * (T_Y_L * center_L) - place.T_W_L * center_L;
+}
+
 }  // namespace
 
 std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const MovingObject& young,
@@ -134,12 +149,12 @@ std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const Mo
   const StampedPose& first = FirstPose(young);
   const PredictedPose predicted = PredictPose(lost, first.stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
-  const std::optional<double> tolerance_m =
-      Tolerance_m(lost, ToSeconds(first.stamp - lost.t_k()), params);
+  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
+  const std::optional<double> tolerance_m = Tolerance_m(lost, unseen_s, params);
   if (!tolerance_m || !MayTouch(lost, predicted.T_W_O, young, first.T_W_O, *tolerance_m)) {
     return std::nullopt;
   }
-  return PlaceIfSame{predicted.T_W_O, *tolerance_m};
+  return PlaceIfSame{predicted.T_W_O, *tolerance_m, HeightTolerance_m(unseen_s, params)};
 }
 
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
@@ -159,13 +174,19 @@ std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& youn
   return T_Y_L;
 }
 
+double HeightOff(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+                 const SceneParams& params) {
+  const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(lost, young, params);
+  if (!place) return std::numeric_limits<double>::infinity();
+  return std::abs(MovedBy_m(lost, young, T_Y_L, *place).z()) / place->height_tolerance_m;
+}
+
 bool FitsThere(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
                const SceneParams& params) {
   const std::optional<PlaceIfSame> place = PlaceToBeSeenAgain(lost, young, params);
   if (!place) return false;
-  const Pose T_W_L = FirstPose(young).T_W_O * T_Y_L;
-  const Eigen::Vector3d center_L = lost.observed_box_O.Center();
-  if ((T_W_L * center_L - place->T_W_L * center_L).norm() > place->tolerance_m) return false;
+  if (MovedBy_m(lost, young, T_Y_L, *place).norm() > place->tolerance_m) return false;
+  if (HeightOff(lost, young, T_Y_L, params) > 1) return false;
   std::vector<Eigen::Vector3d> points_L = OccupiedCenters(young.map_O);
   const Pose T_L_Y = Inverse(T_Y_L);
   for (Eigen::Vector3d& p : points_L) p = T_L_Y * p;

@@ -22,6 +22,7 @@ inline constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 struct PlaceIfSame {
   Pose T_W_L;  // where `lost` was to be when `young` was first seen
   double tolerance_m;
+  double height_tolerance_m;  // of that, along z of W
 };
 
 // None if `young` is nowhere near, whatever may be seen of it yet; if it could be another one like
@@ -37,8 +38,13 @@ std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const Mo
 std::optional<Pose> SeenAgain(const MovingObject& lost, const MovingObject& young,
                               const SceneParams& params);
 
-// Whether that may be so with L at T_Y_L: near where it was to be, the voxels fit there, and both
-// are about as large.
+// How far above or below where it was to be `lost` would be then, in parts of what is tolerated.
+// Infinite where PlaceToBeSeenAgain is none.
+double HeightOff(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+                 const SceneParams& params);
+
+// Whether that may be so with L at T_Y_L: near where it was to be (HeightOff at most 1), the voxels
+// fit there, and both are about as large.
 bool FitsThere(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
                const SceneParams& params);
 

@@ -63,9 +63,9 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 }
 
 absl::Status CheckSize(const VoxelMap& static_map_W, const ObjectMap& objects,
-                       const Surroundings& around_young, const FrameLimits& limits) {
+                       const Surroundings& around_objects, const FrameLimits& limits) {
   std::size_t blocks = static_map_W.blocks().size();
-  for (const auto& [id, around_O] : around_young) blocks += around_O.blocks().size();
+  for (const auto& [id, around_O] : around_objects) blocks += around_O.blocks().size();
   for (const auto& [id, object] : objects) blocks += object->map_O.blocks().size();
   if (blocks <= limits.max_blocks) return absl::OkStatus();
   return absl::ResourceExhaustedError(absl::StrCat(
@@ -120,23 +120,25 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   report.voxels_dynamic = dynamic_W.voxels().size();
   UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   SceneObjects dropped_lately;
-  Surroundings around_young;
+  Surroundings around_objects;
   if (scene_.params.reidentify) {
     dropped_lately =
         DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
-    around_young = SeenAround(around_young_, objects, cloud, frame.stamp, scene_.params, *pool_);
+    around_objects =
+        SeenAround(around_objects_, objects, cloud, frame.stamp, scene_.params, *pool_);
     report.objects_reidentified =
-        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_young, scene_.params, *pool_);
-    std::erase_if(around_young, [&](const auto& entry) { return !objects.contains(entry.first); });
+        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_objects, scene_.params, *pool_);
+    std::erase_if(around_objects,
+                  [&](const auto& entry) { return !objects.contains(entry.first); });
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
-  if (absl::Status status = CheckSize(static_map_W, objects, around_young, limits_); !status.ok())
+  if (absl::Status status = CheckSize(static_map_W, objects, around_objects, limits_); !status.ok())
     return status;
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
   dropped_lately_ = std::move(dropped_lately);
-  around_young_ = std::move(around_young);
+  around_objects_ = std::move(around_objects);
   scene_.objects.clear();
   for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
   scene_.stamp = frame.stamp;
@@ -224,7 +226,7 @@ void SceneBuilder::Reset() {
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
   dropped_lately_.clear();
-  around_young_.clear();
+  around_objects_.clear();
   corrections_ = WorldCorrections(scene_.params.history);
   has_frames_ = false;
   changed_ = true;

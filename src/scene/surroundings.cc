@@ -30,12 +30,37 @@ Aabb BoxOfLost(const ObjectMap& objects, const MovingObject& young, const SceneP
   return box_Y;
 }
 
-void Add(const LabelledCloud& cloud, const Aabb& box_Y, const Pose& T_W_Y,
-         const SceneParams& params, ThreadPool& pool, VoxelMap& around_Y) {
-  ClippedRays rays = RaysWithin(box_Y, T_W_Y, cloud, params);
+// Whether it is time to look beside it, too, for when it will be lost: not at each of its sights,
+// for that takes long, and not at the same time as for the others.
+bool IsLookedBeside(const MovingObject& object, Time stamp) {
+  constexpr std::int64_t kOneOf = 8;
+  return object.t_k() == stamp && (object.id + object.frames_seen) % kOneOf == 0;
+}
+
+// As far as what is the same one may reach (FitsThere).
+Aabb BoxBeside(const MovingObject& object, const SceneParams& params) {
+  constexpr double kBeside_voxels = 3;
+  return object.observed_box_O.Padded(kBeside_voxels * params.object_resolution_m);
+}
+
+// In O; empty if there is nothing to look for.
+Aabb BoxToLookAt(const ObjectMap& objects, const MovingObject& object, Time stamp,
+                 const SceneParams& params) {
+  Aabb box_O;
+  // By another sensor's scan, too, if it is known where the object is then.
+  const bool is_placed =
+      object.t_k() == stamp || (object.velocity_O && stamp - object.t_k() <= kOutOfSight);
+  if (is_placed && IsYoung(object, stamp)) box_O = BoxOfLost(objects, object, params);
+  if (IsLookedBeside(object, stamp)) box_O.Extend(BoxBeside(object, params));
+  return box_O;
+}
+
+void Add(const LabelledCloud& cloud, const Aabb& box_O, const Pose& T_W_O,
+         const SceneParams& params, ThreadPool& pool, VoxelMap& around_O) {
+  ClippedRays rays = RaysWithin(box_O, T_W_O, cloud, params);
   std::ranges::replace(rays.kinds, RayEnd::kBlock, RayEnd::kHit);
-  const auto update = RayCaster(pool).Cast(around_Y.grid(), rays.Cloud(), {});
-  if (update) around_Y.Update(*update, pool);
+  const auto update = RayCaster(pool).Cast(around_O.grid(), rays.Cloud(), {});
+  if (update) around_O.Update(*update, pool);
 }
 
 }  // namespace
@@ -44,22 +69,19 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
                         const LabelledCloud& cloud, Time stamp, const SceneParams& params,
                         ThreadPool& pool) {
   Surroundings around;
-  for (const auto& [id, young] : objects) {
-    if (young->given() || !IsYoung(*young, stamp)) continue;
+  for (const auto& [id, object] : objects) {
+    if (object->given()) continue;
     const auto known = before.find(id);
     // What was first seen now is another one than that which went by its id before.
-    const bool goes_on = known != before.end() && young->first_seen < stamp;
-    VoxelMap around_Y =
+    const bool goes_on = known != before.end() && object->first_seen < stamp;
+    VoxelMap around_O =
         goes_on ? known->second : VoxelMap(params.object_resolution_m, params.Model());
-    // By another sensor's scan, too, if it is known where the young one is then.
-    const bool is_placed =
-        young->t_k() == stamp || (young->velocity_O && stamp - young->t_k() <= kOutOfSight);
-    if (is_placed) {
-      const Pose T_W_Y = PredictPose(*young, stamp, params.horizon).T_W_O;
-      const Aabb box_Y = BoxOfLost(objects, *young, params);
-      if (!box_Y.Empty()) Add(cloud, box_Y, T_W_Y, params, pool, around_Y);
+    const Aabb box_O = BoxToLookAt(objects, *object, stamp, params);
+    if (!box_O.Empty()) {
+      const Pose T_W_O = PredictPose(*object, stamp, params.horizon).T_W_O;
+      Add(cloud, box_O, T_W_O, params, pool, around_O);
     }
-    around.emplace(id, std::move(around_Y));
+    around.emplace(id, std::move(around_O));
   }
   return around;
 }

@@ -10,6 +10,16 @@ namespace {
 
 using OtherShape = SeenThrough;
 
+const RoadUserShape kTrolley{
+    {{{-0.6, -0.3, -0.9}, {0.6, 0.3, -0.3}}, {{-0.6, -0.3, -0.9}, {-0.5, 0.3, 0.2}}}};
+const RoadUserShape kCrate{{{{-0.6, -0.3, -0.9}, {0.6, 0.3, 0.2}}}};
+
+RoadUserShape Raised(RoadUserShape shape, double by_m) {
+  const Eigen::Vector3d by = by_m * Eigen::Vector3d::UnitZ();
+  for (Aabb& box_B : shape.boxes_B) box_B = {box_B.min + by, box_B.max + by};
+  return shape;
+}
+
 // By four or five voxels.
 TEST_F(OtherShape, IsThatOfOneMuchSmallerOrLarger) {
   const RoadUserShape longer{{{{-0.85, -0.2, -0.9}, {1.25, 0.2, 0.85}}}};
@@ -21,7 +31,9 @@ TEST_F(OtherShape, IsThatOfOneMuchSmallerOrLarger) {
                                     {kBox, longer},
                                     {longer, kBox},
                                     {car, hatchback},
-                                    {hatchback, car}}) {
+                                    {hatchback, car},
+                                    {CarWithRoofAt(-0.2), CarWithRoofAt(0.2)},
+                                    {CarWithRoofAt(0.2), CarWithRoofAt(-0.2)}}) {
     BeginAnew();
     LoseAndSee(lost, young);
     EXPECT_FALSE(Same(1, 2)) << lost.boxes_B[0].max << young.boxes_B[0].max;
@@ -42,6 +54,52 @@ TEST_F(OtherShape, IsNotThatOfOneWhoseRoofRaysGraze) {
     See(2, car, 30, 50);
     EXPECT_TRUE(Same(1, 2)) << height_cm;
   }
+}
+
+// Of a trolley with a handle at its rear, what it carries would fill what rays passed over it.
+TEST_F(OtherShape, IsThatOfOneWhoFillsItsGaps) {
+  LoseAndSee(kTrolley, kCrate);
+  EXPECT_FALSE(Same(1, 2));
+  BeginAnew();
+  LoseAndSee(kTrolley, kTrolley);
+  EXPECT_TRUE(Same(1, 2));
+}
+
+// What lies behind comes in sight when the lost one has been known for long.
+TEST_F(OtherShape, IsToldByWhatWasSeenLate) {
+  const RoadUserShape chest{{{{-0.6, -0.3, -0.9}, {0.6, 0.3, 0}}}};
+  RoadUserShape loaded = chest;
+  loaded.boxes_B.push_back({{-0.1, -0.3, 0}, {0.1, 0.3, 0.3}});
+  sky_until_ = 25;
+  ahead_m_ = -3;
+  See(1, chest, 0, 45);
+  See(2, loaded, 55, 75);
+  EXPECT_FALSE(Same(1, 2));
+  BeginAnew();
+  See(1, chest, 0, 45);
+  See(2, chest, 55, 75);
+  EXPECT_TRUE(Same(1, 2));
+}
+
+// What stands higher is no other view of what stood on the ground.
+TEST_F(OtherShape, IsThatOfOneWhoStandsHigher) {
+  LoseAndSee(kPedestrian, Raised(kPedestrian, 0.3));
+  EXPECT_FALSE(Same(1, 2));
+}
+
+// Either alone is tolerated: that much higher, or without the load that the lost one had.
+TEST_F(OtherShape, IsToldByDoubtsThatAddUp) {
+  RoadUserShape loaded = kTrolley;
+  loaded.boxes_B.push_back({{-0.5, -0.3, -0.3}, {0, 0.3, 0}});
+  const RoadUserShape raised = Raised(kTrolley, 0.2);
+  LoseAndSee(loaded, kTrolley);
+  EXPECT_TRUE(Same(1, 2));
+  BeginAnew();
+  LoseAndSee(kTrolley, raised);
+  EXPECT_TRUE(Same(1, 2));
+  BeginAnew();
+  LoseAndSee(loaded, raised);
+  EXPECT_FALSE(Same(1, 2));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class SeenThrough : public testing::Test {
         Apply(frame);
         frame = testing_support::FrameAt(k * period_s_ + *background_s_);
       }
-      if (k < sky_from_) AddBehind(shape, T_W_B, frame);
+      if (k >= sky_until_ && k < sky_from_) AddBehind(shape, T_W_B, frame);
       Apply(frame);
     }
   }
@@ -78,8 +78,8 @@ class SeenThrough : public testing::Test {
   absl::Status Refused() { return std::exchange(refused_, absl::OkStatus()); }
 
   SceneParams params_;
-  // From that frame on nothing lies behind.
-  int sky_from_ = 1000;
+  // Before one of the frames, and from the other on, nothing lies behind.
+  int sky_until_ = 0, sky_from_ = 1000;
   // In that frame the source misses the object.
   int missed_ = -1;
   double period_s_ = 0.1;

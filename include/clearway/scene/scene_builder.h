@@ -106,10 +106,10 @@ class SceneBuilder {
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
 
   SceneSnapshot scene_;  // its version is the one published last
-  // With SceneParams::reidentify: they could be seen again; and what rays show around those, by
-  // their id and in their O, that could have been lost before.
+  // With SceneParams::reidentify: they could be seen again; and what rays show around objects, by
+  // their id and in their O.
   std::vector<std::shared_ptr<const MovingObject>> dropped_lately_;
-  std::map<ObjectId, VoxelMap> around_young_;
+  std::map<ObjectId, VoxelMap> around_objects_;
   WorldCorrections corrections_;
   FrameLimits limits_;
   ThreadPool* pool_;
