@@ -198,7 +198,10 @@ void AddEvaluate(Cli& cli) {
   command->add_option("--max-range", flags->max_range_m, "How far rays are used, in metres")
       ->check(Between(0.1, 1000))
       ->capture_default_str();
-  command->add_option("--grazing", flags->grazing_m, "As of clearway-server --scene-grazing-m")
+  command
+      ->add_option("--grazing", flags->grazing_m,
+                   "As of clearway-server --scene-grazing-m: with 4\nthe static map keeps what "
+                   "rays only graze")
       ->check(Between(0, 100))
       ->capture_default_str();
   command
@@ -221,7 +224,9 @@ void AddEvaluate(Cli& cli) {
           "--sensor-error-deg", flags->sensor_error_deg,
           "The same of angles, in degrees (1.15 for oxts poses, or 0\nwith --sensor-error 0)")
       ->check(Between(0, 57));
-  command->add_flag("--reidentify", flags->reidentify, "As of clearway-server --scene-reidentify");
+  command->add_flag("--reidentify", flags->reidentify,
+                    "As of clearway-server --scene-reidentify: for input\nwhose ids change, or "
+                    "with --forget");
   command->add_flag("--filter-labels", flags->filter_labels,
                     "As of clearway-server --scene-filter-labels");
   command->add_flag("--clear-objects", flags->clear_objects,

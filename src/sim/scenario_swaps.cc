@@ -109,27 +109,32 @@ class Swaps {
   // What lies before a sensor that is turned by yaw_rad.
   void AddSide(double yaw_rad, const Kind& first, const Kind& second) {
     const Pose T_W_V = PlacedAt(0, 0, 0, yaw_rad);
-    const auto add = [&](Body body) {
-      auto& fixed = std::get<FixedPose>(body.trajectory);
-      fixed.T_W_B = T_W_V * fixed.T_W_B;
-      world_.Add(std::move(body));
-    };
-    const Eigen::Vector3d first_m = SizeOf(first), second_m = SizeOf(second);
-    const double wide_m = std::max(first_m.y(), second_m.y());
+    const double wide_m = std::max(SizeOf(first).y(), SizeOf(second).y());
     const double y_m = (wide_m > 1.5 ? 8 : 6.5) + Between(0, 3);
-    add(StaticBox("houses", PlacedAt(0, y_m + 8, 3.9), {110, 6, 8}));
-
+    Stand(T_W_V, StaticBox("houses", PlacedAt(0, y_m + 8, 3.9), {110, 6, 8}));
     // Along the way: both are hidden whole side by side, half a metre apart.
-    const double both_m = first_m.x() + second_m.x(), hidden_m = both_m + 1;
-    add(WallBefore(0, WallFor(hidden_m, y_m - wide_m / 2)));
+    const double hidden_m = SizeOf(first).x() + SizeOf(second).x() + 1;
+    Stand(T_W_V, WallBefore(0, WallFor(hidden_m, y_m - wide_m / 2)));
+    AddWay(T_W_V, y_m, hidden_m, first, second);
+  }
+
+  void Stand(const Pose& T_W_V, Body body) {
+    auto& fixed = std::get<FixedPose>(body.trajectory);
+    fixed.T_W_B = T_W_V * fixed.T_W_B;
+    world_.Add(std::move(body));
+  }
+
+  // Those who go past, one way or the other.
+  void AddWay(const Pose& T_W_V, double y_m, double hidden_m, const Kind& first,
+              const Kind& second) {
     const double sign = Heads(random_) ? 1 : -1;
-    const double apart_m = both_m / 2 + 0.5;
+    const double apart_m = hidden_m / 2;
     const double speed_mps = apart_m / Between(0.8, 1.5);
     const auto at = [&](const Kind& kind, double along_m) {
       const double turned_rad = sign > 0 ? 0 : std::numbers::pi;
       return T_W_V * PlacedAt(sign * along_m, y_m, kind.height_m, turned_rad);
     };
-    const double stop_m = -hidden_m / 2 + 0.25 + first_m.x() / 2, start_m = stop_m + apart_m;
+    const double stop_m = -hidden_m / 2 + 0.25 + SizeOf(first).x() / 2, start_m = stop_m + apart_m;
     const double start_s = kHides_s + apart_m / speed_mps;
     const Pose begin = at(first, stop_m - kHides_s * speed_mps);
     const Pose end = at(second, start_m + (kLasts_s - start_s) * speed_mps);
