@@ -20,10 +20,10 @@ namespace {
 // fewer yet where poses are off, as such maps are wide enough for much.
 bool Fits(const MovingObject& lost, const std::vector<Eigen::Vector3d>& points_O,
           const SceneParams& params) {
-  constexpr double kOnSurface = 0.5, kBeyond_voxels = 3;
+  constexpr double kOnSurface = 0.5;
   const double kWithin = params.object_pose_error_m > 0 ? 0.99 : 0.97;
   const double voxel_m = lost.map_O.grid().resolution_m();
-  const Aabb box_O = lost.observed_box_O.Padded(kBeyond_voxels * voxel_m);
+  const Aabb box_O = lost.observed_box_O.Padded(kReachesBeyond_voxels * voxel_m);
   std::size_t within = 0, near = 0;
   for (const Eigen::Vector3d& p_O : points_O) {
     within += box_O.Contains(p_O);

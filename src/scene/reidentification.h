@@ -19,6 +19,9 @@ inline bool IsYoung(const MovingObject& object, Time stamp) {
 // sensor, whatever other sensors see meanwhile.
 inline constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 
+// So far beyond what was seen of an object before there is hardly anything of it.
+inline constexpr double kReachesBeyond_voxels = 3;
+
 struct PlaceIfSame {
   Pose T_W_L;  // where `lost` was to be when `young` was first seen
   double tolerance_m;

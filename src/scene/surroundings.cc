@@ -37,10 +37,8 @@ bool IsLookedBeside(const MovingObject& object, Time stamp) {
   return object.t_k() == stamp && (object.id + object.frames_seen) % kOneOf == 0;
 }
 
-// As far as what is the same one may reach (FitsThere).
 Aabb BoxBeside(const MovingObject& object, const SceneParams& params) {
-  constexpr double kBeside_voxels = 3;
-  return object.observed_box_O.Padded(kBeside_voxels * params.object_resolution_m);
+  return object.observed_box_O.Padded(kReachesBeyond_voxels * params.object_resolution_m);
 }
 
 // In O; empty if there is nothing to look for.

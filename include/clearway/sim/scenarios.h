@@ -35,10 +35,9 @@ struct ScenarioOptions {
 //   other, 20 s at 10 Hz; another world for each seed. 0.1 m voxels.
 // queues: people and cyclists who look alike, one close behind the other, before that LiDAR;
 //   another world for each seed, too. 0.1 m voxels.
-// swaps: one goes behind a wall and another, of another shape, comes out where it would have (on
-// the
-//   LiDAR's other side the same one does), 11 s at 10 Hz; ten pairs of vehicles, people and goods,
-//   both ways round, by the seed. 0.1 m voxels.
+// swaps: one goes behind a wall and another, of another shape, comes out where it would have; on
+//   the LiDAR's other side the same one does. 11 s at 10 Hz; ten pairs of vehicles, people and
+//   goods, both ways round, by the seed. 0.1 m voxels.
 // articulated: a truck whose trailer follows round a bend, cyclists who pedal, an excavator that
 //   swings its boom, each part an object of its own that is told to be a part; a LiDAR that stands,
 //   12 s at 10 Hz. 0.1 m voxels.
