@@ -145,10 +145,10 @@ void PrintStatic(std::ostream& out, const StaticFit& fit) {
 }
 
 void PrintIdentities(std::ostream& out, const Identities& found) {
-  out << "\nOf " << Plural(found.came_back, "time") << " that an object came back under a new id ("
-      << IdentityScore::kFewestFrames << " frames or more before and after), " << found.known_again
-      << " were known again; all in all " << Plural(found.wrong, "id")
-      << (found.wrong == 1 ? " was" : " were") << " taken for another object's.\n";
+  out << "\nTimes that an object came back under a new id (" << IdentityScore::kFewestFrames
+      << " frames or more before and after): " << found.came_back
+      << ", of which known again: " << found.known_again
+      << ".\nIds taken for another object's: " << found.wrong << ".\n";
 }
 
 void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {

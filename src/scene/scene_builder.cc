@@ -63,10 +63,12 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 }
 
 absl::Status CheckSize(const VoxelMap& static_map_W, const ObjectMap& objects,
-                       const Surroundings& around_objects, const FrameLimits& limits) {
+                       const SceneObjects& dropped_lately, const Surroundings& around_objects,
+                       const FrameLimits& limits) {
   std::size_t blocks = static_map_W.blocks().size();
   for (const auto& [id, around_O] : around_objects) blocks += around_O.blocks().size();
   for (const auto& [id, object] : objects) blocks += object->map_O.blocks().size();
+  for (const auto& object : dropped_lately) blocks += object->map_O.blocks().size();
   if (blocks <= limits.max_blocks) return absl::OkStatus();
   return absl::ResourceExhaustedError(absl::StrCat(
       "points_m: the scene's maps would hold ", blocks, " blocks; the limit is ", limits.max_blocks,
@@ -132,8 +134,11 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
                   [&](const auto& entry) { return !objects.contains(entry.first); });
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
-  if (absl::Status status = CheckSize(static_map_W, objects, around_objects, limits_); !status.ok())
+  if (absl::Status status =
+          CheckSize(static_map_W, objects, dropped_lately, around_objects, limits_);
+      !status.ok()) {
     return status;
+  }
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);

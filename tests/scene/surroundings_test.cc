@@ -99,5 +99,30 @@ TEST_F(SeenThrough, CountsToTheBlocksThatAreAllowed) {
   EXPECT_TRUE(Refused().ok());
 }
 
+// And so does what was dropped, for a while: a new one could be it.
+TEST(DroppedObjects, CountToTheBlocksThatAreAllowed) {
+  SceneParams params;
+  params.object_lifetime = std::chrono::seconds(1);
+  FrameLimits limits;
+  const auto apply = [&](ThreadPool& pool) {
+    SceneBuilder dut(params, limits, pool);
+    const auto see = [&](ObjectId id, double t_s) {
+      Frame frame = testing_support::FrameAt(t_s);
+      for (int i = 0; i < 9; ++i) testing_support::AddPoint(frame, id, {5, 1.0 * i, 0});
+      return dut.Apply(frame).status();
+    };
+    EXPECT_TRUE(see(1, 1).ok());
+    const absl::Status status = see(2, 2.5);
+    EXPECT_EQ(dut.Publish()->FindObject(1) == nullptr, status.ok());
+    if (status.ok()) limits.max_blocks = dut.Publish()->static_map_W.blocks().size() + 12;
+    return status;
+  };
+  ThreadPool pool(1);
+  EXPECT_TRUE(apply(pool).ok());
+  EXPECT_TRUE(apply(pool).ok());
+  params.reidentify = true;
+  EXPECT_TRUE(absl::IsResourceExhausted(apply(pool)));
+}
+
 }  // namespace
 }  // namespace clearway

@@ -61,7 +61,8 @@ struct SceneParams {
   // over (WorldCorrections). 0 and 0: the sensor is where the source says.
   double sensor_pose_error_m = 0, sensor_pose_error_rad = 0;
   // Whether an object that was lost and is seen again under another id is known again, by where it
-  // is predicted and by its shape. It then goes on under its first id, and the other names it too.
+  // is predicted and by its shape; z of W must point up. It then goes on under its first id, and
+  // the other names it too.
   bool reidentify = false;
   // Whether points are doubted whose label those around them in the scan do not bear out: outvoted
   // ones, an object's few that lie apart from the rest of it, and static ones next to an object's
