@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/lanes.h"
 #include "base/multiversion.h"
@@ -50,19 +51,28 @@ inline void LaneCells(const LaneFloats (&d)[3], int across, LaneInts& cells) {
   cells = DirectionCells::kBefore + (face * kRow + v + 1) * kRow + u + 1;
 }
 
+constexpr std::size_t kTogether = 32 * kLanes;
+
+// Of so many at most.
 CLEARWAY_MULTIVERSION void FindCells(const Eigen::Vector3f* points_W, std::size_t size,
                                      const Eigen::Vector3f& from_W, int across,
                                      std::uint32_t* cells) {
+  float directions[3][kTogether];
+  for (std::size_t i = 0; i < size; ++i) {  // many at a time
+    const float* p = points_W[i].data();
+    directions[0][i] = p[0] - from_W[0];
+    directions[1][i] = p[1] - from_W[1];
+    directions[2][i] = p[2] - from_W[2];
+  }
   for (std::size_t i = 0; i < size; i += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, size - i);
-    LaneFloats direction[3];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const float* p = points_W[i + std::min(lane, count - 1)].data();
-      for (int axis = 0; axis < 3; ++axis) direction[axis][lane] = p[axis] - from_W[axis];
+    LaneFloats direction[3] = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      std::memcpy(&direction[axis], &directions[axis][i], count * sizeof(float));
     }
     LaneInts found;
     LaneCells(direction, across, found);
-    for (std::size_t lane = 0; lane < count; ++lane) cells[i + lane] = found[lane];
+    std::memcpy(&cells[i], &found, count * sizeof(std::uint32_t));
   }
 }
 
@@ -70,7 +80,10 @@ CLEARWAY_MULTIVERSION void FindCells(const Eigen::Vector3f* points_W, std::size_
 
 void DirectionCells::Find(std::span<const Eigen::Vector3f> points_W, const Eigen::Vector3f& from_W,
                           std::uint32_t* cells) const {
-  FindCells(points_W.data(), points_W.size(), from_W, across_, cells);
+  for (std::size_t i = 0; i < points_W.size(); i += kTogether) {
+    const std::size_t count = std::min(kTogether, points_W.size() - i);
+    FindCells(&points_W[i], count, from_W, across_, &cells[i]);
+  }
 }
 
 std::uint32_t DirectionCells::InRim(int axis, bool negative, const Eigen::Vector3f& d) const {

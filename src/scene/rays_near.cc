@@ -1,14 +1,43 @@
 #include "scene/rays_near.h"
 
+#include <cstdint>
+#include <vector>
+
+#include "base/multiversion.h"
+
 namespace clearway {
 namespace {
 
-// Whether the line passes a ball: most of a frame's rays go elsewhere.
-bool MayReach(const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
-              const Eigen::Vector3d& center, double radius_m) {
-  const Eigen::Vector3d ray = (end - origin).cast<double>();
-  const Eigen::Vector3d to_center = center - origin.cast<double>();
-  return ray.cross(to_center).squaredNorm() <= radius_m * radius_m * ray.squaredNorm();
+// Of rays from one origin, whether their lines may pass a ball: most of a frame's go elsewhere. The
+// ball's centre as seen from the origin.
+CLEARWAY_MULTIVERSION void FindNear(const Eigen::Vector3f* ends, std::size_t size,
+                                    const Eigen::Vector3f& origin, const Eigen::Vector3f& center,
+                                    float radius_m, std::uint8_t* is_near) {
+  for (std::size_t i = 0; i < size; ++i) {  // many at a time
+    const float* end = ends[i].data();
+    const float x = end[0] - origin[0], y = end[1] - origin[1], z = end[2] - origin[2];
+    const float across_x = y * center[2] - z * center[1];
+    const float across_y = z * center[0] - x * center[2];
+    const float across_z = x * center[1] - y * center[0];
+    const float square = across_x * across_x + across_y * across_y + across_z * across_z;
+    is_near[i] = square <= radius_m * radius_m * (x * x + y * y + z * z);
+  }
+}
+
+// Of each ray of the cloud, whether it may pass the ball.
+std::vector<std::uint8_t> RaysNear(const LabelledCloud& cloud, const Eigen::Vector3d& center_W,
+                                   double radius_m) {
+  const std::size_t size = cloud.ends_W.size();
+  const bool one_origin = cloud.origins_W.size() == 1;
+  const std::size_t together = one_origin ? size : 1;
+  std::vector<std::uint8_t> is_near(size);
+  for (std::size_t i = 0; i < size; i += together) {
+    const Eigen::Vector3f& origin_W = cloud.origins_W[one_origin ? 0 : i];
+    const Eigen::Vector3f center = (center_W - origin_W.cast<double>()).cast<float>();
+    FindNear(&cloud.ends_W[i], together, origin_W, center, static_cast<float>(radius_m),
+             &is_near[i]);
+  }
+  return is_near;
 }
 
 }  // namespace
@@ -17,13 +46,14 @@ ClippedRays RaysWithin(const Aabb& box_O, const Pose& T_W_O, const LabelledCloud
                        const SceneParams& params) {
   const Pose T_O_W = Inverse(T_W_O);
   const Eigen::Vector3d center_W = T_W_O * box_O.Center();
-  const double reach_m = 0.501 * box_O.Size().norm();
+  const double reach_m = 0.51 * box_O.Size().norm();  // half, and what is rounded
+  const std::vector<std::uint8_t> is_near = RaysNear(cloud, center_W, reach_m);
   const VoxelGrid grid(params.resolution_m);
   ClippedRays rays;
   for (std::size_t i = 0; i < cloud.ends_W.size(); ++i) {
+    if (is_near[i] == 0) continue;
     const Eigen::Vector3f& origin_W =
         cloud.origins_W.size() == 1 ? cloud.origins_W[0] : cloud.origins_W[i];
-    if (!MayReach(origin_W, cloud.ends_W[i], center_W, reach_m)) continue;
     const LimitedRay limited = LimitRay(grid, params.rays, origin_W, cloud.ends_W[i]);
     const Eigen::Vector3d origin_O = T_O_W * origin_W.cast<double>();
     const Eigen::Vector3d end_O = T_O_W * limited.end.cast<double>();

@@ -110,6 +110,12 @@ std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map) {
     });
   }
   KeepOutlines(corners);
+  const auto turn = [&] {
+    for (Eigen::Vector3d& p : corners) std::swap(p.x(), p.z());
+  };
+  turn();
+  KeepOutlines(corners);  // of each x
+  turn();
   return corners;
 }
 

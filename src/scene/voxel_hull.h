@@ -8,8 +8,8 @@
 
 namespace clearway {
 
-// The occupied voxels' corners that a convex hull can have: of each level, those of its outline. In
-// voxels: whole numbers, so that the hull is computed on exact ones.
+// The occupied voxels' corners that a convex hull can have: of each z, those of its outline, and of
+// these likewise of each x. In voxels: whole numbers, so that the hull is computed on exact ones.
 std::vector<Eigen::Vector3d> HullCandidates(const VoxelMap& map);
 
 // Keeps, of the points of each z, the corners of their outline: no others are corners of a convex

@@ -59,15 +59,15 @@ TEST(VoxelHull, CandidatesHaveTheHullOfAllCorners) {
   }
 }
 
-// Of a solid box, only the corners of its levels are left.
-TEST(VoxelHull, FourCandidatesForEachLevelOfABox) {
+// Of a solid box, only its corners are left.
+TEST(VoxelHull, EightCandidatesForABox) {
   VoxelMap map(0.1);
   for (int x = -3; x < 12; ++x) {
     for (int y = 2; y < 9; ++y) {
       for (int z = -2; z < 4; ++z) map.Set({x, y, z}, 100);
     }
   }
-  EXPECT_EQ(HullCandidates(map).size(), 4 * 7);
+  EXPECT_EQ(HullCandidates(map).size(), 8);
 }
 
 TEST(VoxelHull, OutlinesHaveTheHullOfAllPoints) {
