@@ -53,7 +53,7 @@ inline void LaneCells(const LaneFloats (&d)[3], int across, LaneInts& cells) {
 
 constexpr std::size_t kTogether = 32 * kLanes;
 
-// Of so many at most.
+// Of kTogether points at most.
 CLEARWAY_MULTIVERSION void FindCells(const Eigen::Vector3f* points_W, std::size_t size,
                                      const Eigen::Vector3f& from_W, int across,
                                      std::uint32_t* cells) {
