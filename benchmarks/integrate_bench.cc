@@ -130,21 +130,48 @@ std::unique_ptr<Integrator> WarmIntegrator(const Input& input, const SceneParams
   return integrator;
 }
 
-// Milliseconds of all frames, the end of the maps before included.
-double RoundMs(Integrator& integrator, const Input& input) {
-  return Took<std::milli>([&] {
-    integrator.Reset();
-    for (const Frame& frame : input.frames) integrator.Take(frame);
-  });
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-// The median of a few rounds.
+// Milliseconds of all frames, the end of the maps before included: the median of a few rounds.
 double FramesMs(Integrator& integrator, const Input& input) {
-  std::array<double, 5> rounds_ms;
-  for (double& ms : rounds_ms) ms = RoundMs(integrator, input);
-  std::nth_element(rounds_ms.begin(), rounds_ms.begin() + 2, rounds_ms.end());
-  return rounds_ms[2];
+  std::vector<double> rounds_ms(5);
+  for (double& ms : rounds_ms) {
+    ms = Took<std::milli>([&] {
+      integrator.Reset();
+      for (const Frame& frame : input.frames) integrator.Take(frame);
+    });
+  }
+  return Median(rounds_ms);
 }
+
+// Likewise, but of each frame the median: what disturbs some of a round's frames leaves the others.
+class FrameByFrame {
+ public:
+  FrameByFrame(const Input& input, const SceneParams& params)
+      : input_(input), integrator_(WarmIntegrator(input, params, 1)) {}
+
+  void TakeRound() {
+    took_ms_.resize(input_.frames.size() + 1);
+    took_ms_.back().push_back(Took<std::milli>([&] { integrator_->Reset(); }));
+    for (std::size_t i = 0; i < input_.frames.size(); ++i) {
+      took_ms_[i].push_back(Took<std::milli>([&] { integrator_->Take(input_.frames[i]); }));
+    }
+  }
+  double FramesMs() const {
+    double sum_ms = 0;
+    for (const std::vector<double>& rounds_ms : took_ms_) sum_ms += Median(rounds_ms);
+    return sum_ms;
+  }
+
+ private:
+  const Input& input_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<std::vector<double>> took_ms_;  // by frame and round; last, the end of the maps
+};
 
 // The same frames with OctoMap and with ours, in turn: what disturbs one disturbs the other.
 void AgainstOctomap(benchmark::State& state, const Input& input, const std::string& name,
@@ -179,19 +206,17 @@ void OneAndTwoThreads(benchmark::State& state, const Input& input) {
   }
 }
 
-// Likewise with the options and without, round by round: they differ by less than what a machine's
+// The same frames with the options and without, in turn. They differ by less than what a machine's
 // speed changes by within seconds.
 void RobustAndPlain(benchmark::State& state, const Input& input, const std::string& name) {
-  const auto plain = WarmIntegrator(input, ParamsFor(input, false), 1);
-  const auto robust = WarmIntegrator(input, RobustParamsFor(input), 1);
+  constexpr int kRounds = 9;
   for (auto _ : state) {
-    std::array<double, 9> ratios;
-    for (double& ratio : ratios) {
-      const double plain_ms = RoundMs(*plain, input);
-      ratio = plain_ms / RoundMs(*robust, input);
+    FrameByFrame plain(input, ParamsFor(input, false)), robust(input, RobustParamsFor(input));
+    for (int round = 0; round < kRounds; ++round) {
+      plain.TakeRound();
+      robust.TakeRound();
     }
-    std::nth_element(ratios.begin(), ratios.begin() + 4, ratios.end());
-    state.counters["integrate_robust_" + name + "_x"] = ratios[4];
+    state.counters["integrate_robust_" + name + "_x"] = plain.FramesMs() / robust.FramesMs();
   }
 }
 

@@ -8,6 +8,7 @@ ScanUpdate::Block& ScanUpdate::BlockFor(BlockKey key) {
     if (inserted) {
       keys_.push_back(key);
       blocks_.emplace_back();
+      has_end_.push_back(0);
     }
     last_key_ = key;
     last_ = entry->second;
@@ -24,6 +25,7 @@ void ScanUpdate::Reserve(std::size_t blocks) {
   index_.reserve(blocks);
   keys_.reserve(blocks);
   blocks_.reserve(blocks);
+  has_end_.reserve(blocks);
 }
 
 }  // namespace clearway

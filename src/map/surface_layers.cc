@@ -106,11 +106,9 @@ void FindBeside(const OccupiedAround& occupied,
 
 SurfaceLayers::SurfaceLayers(const VoxelMap& map, const ScanUpdate& update, ThreadPool& pool)
     : blocks_by_place_(update.keys().size()) {
-  std::vector<std::size_t> places;
-  for (std::size_t place = 0; place < update.keys().size(); ++place) {
-    if (!update.block(place).end.Any()) continue;
-    blocks_by_place_[place] = static_cast<std::uint32_t>(places.size());
-    places.push_back(place);
+  const std::vector<std::size_t>& places = update.end_places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    blocks_by_place_[places[i]] = static_cast<std::uint32_t>(i);
   }
   blocks_.resize(places.size());
   const auto find = [&](int, std::size_t begin, std::size_t end) {

@@ -57,23 +57,26 @@ constexpr std::size_t kTogether = 32 * kLanes;
 CLEARWAY_MULTIVERSION void FindCells(const Eigen::Vector3f* points_W, std::size_t size,
                                      const Eigen::Vector3f& from_W, int across,
                                      std::uint32_t* cells) {
-  float directions[3][kTogether];
+  alignas(LaneFloats) float directions[3][kTogether];
   for (std::size_t i = 0; i < size; ++i) {  // many at a time
     const float* p = points_W[i].data();
     directions[0][i] = p[0] - from_W[0];
     directions[1][i] = p[1] - from_W[1];
     directions[2][i] = p[2] - from_W[2];
   }
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const std::size_t count = std::min<std::size_t>(kLanes, size - i);
-    LaneFloats direction[3] = {};
+  alignas(LaneInts) std::uint32_t found[kTogether];
+  const std::size_t rounded_up = (size + kLanes - 1) / kLanes * kLanes;
+  for (auto& along : directions) std::fill(along + size, along + rounded_up, 0.F);
+  for (std::size_t i = 0; i < rounded_up; i += kLanes) {
+    LaneFloats direction[3];
     for (int axis = 0; axis < 3; ++axis) {
-      std::memcpy(&direction[axis], &directions[axis][i], count * sizeof(float));
+      std::memcpy(&direction[axis], &directions[axis][i], sizeof(LaneFloats));
     }
-    LaneInts found;
-    LaneCells(direction, across, found);
-    std::memcpy(&cells[i], &found, count * sizeof(std::uint32_t));
+    LaneInts eight;
+    LaneCells(direction, across, eight);
+    std::memcpy(&found[i], &eight, sizeof(LaneInts));
   }
+  std::copy_n(found, size, cells);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ void DirectionGrid::Fill(const LabelledCloud& cloud, const DirectionCells& cells
   const std::vector<DirectionEntry> entries = EntriesNearObjects(cloud, cells);
   CountCells(entries);
   const Eigen::Vector3f from_W = cloud.origins_W[0];
-  for (auto* array : {&cells_, &indices_, &alike_until_}) array->resize(entries.size());
+  for (auto* array : {&cells_, &indices_, &filled_}) array->resize(entries.size());
   for (auto* array : {&x_m_, &y_m_, &z_m_, &ranges_m_}) array->resize(entries.size());
   is_copy_.resize(entries.size());
   labels_.resize(entries.size());
@@ -86,9 +86,26 @@ void DirectionGrid::Fill(const LabelledCloud& cloud, const DirectionCells& cells
     z_m_[place] = p_m.z();
     ranges_m_[place] = std::sqrt(p_m.x() * p_m.x() + p_m.y() * p_m.y() + p_m.z() * p_m.z());
   }
-  for (std::size_t place = entries.size(); place-- > 0;) {
-    const bool as_next = place + 1 < entries.size() && labels_[place] == labels_[place + 1];
-    alike_until_[place] = as_next ? alike_until_[place + 1] : static_cast<std::uint32_t>(place) + 1;
+  FindRanges();
+}
+
+void DirectionGrid::FindRanges() {
+  std::vector<LabelRanges> own;
+  std::vector<std::uint32_t> cells;  // of those with points
+  for (std::size_t place = 0; place < size(); ++place) {
+    if (cells.empty() || cells.back() != cells_[place]) {
+      cells.push_back(cells_[place]);
+      own.emplace_back();
+    }
+    filled_[place] = static_cast<std::uint32_t>(cells.size()) - 1;
+    own.back().Add(labels_[place], ranges_m_[place]);
+  }
+  ranges_about_.assign(cells.size(), {});
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const auto& [begin, end] : RunsAboutCell(cells[i])) {
+      if (begin == end) continue;
+      for (std::size_t k = filled_[begin]; k <= filled_[end - 1]; ++k) ranges_about_[i].Add(own[k]);
+    }
   }
 }
 
@@ -104,10 +121,10 @@ void DirectionGrid::CountCells(const std::vector<DirectionEntry>& entries) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
 }
 
-std::array<DirectionGrid::Run, 3> DirectionGrid::RunsAbout(std::size_t place) const {
+std::array<DirectionGrid::Run, 3> DirectionGrid::RunsAboutCell(std::uint32_t cell) const {
   std::array<Run, 3> runs;
   for (std::size_t row = 0; row < runs.size(); ++row) {
-    const std::uint32_t first = RowsAbout(cells_[place])[row] - first_cell_;
+    const std::uint32_t first = RowsAbout(cell)[row] - first_cell_;
     runs[row] = {begin_[first], begin_[first + 3]};
   }
   return runs;
@@ -158,17 +175,8 @@ DirectionGrid::Votes DirectionGrid::VotesOn(std::size_t place) const {
 
 bool DirectionGrid::MayHaveOthers(std::size_t place) const {
   const float range_m = ranges_m_[place], apart_m = Apart_m(range_m);
-  const ObjectId label = labels_[place];
-  return std::ranges::any_of(RunsAbout(place), [&](const Run& run) {
-    if (run.begin == run.end) return false;
-    if (labels_[run.begin] == label && alike_until_[run.begin] >= run.end) return false;
-    unsigned any = 0;  // many at a time
-    for (std::size_t k = run.begin; k < run.end; ++k) {
-      const bool as_far = std::abs(ranges_m_[k] - range_m) <= apart_m;
-      any |= static_cast<unsigned>(labels_[k] != label) & static_cast<unsigned>(as_far);
-    }
-    return any != 0;
-  });
+  const LabelRanges& about = ranges_about_[filled_[place]];
+  return about.MayHaveOther(labels_[place], range_m - apart_m, range_m + apart_m);
 }
 
 bool DirectionGrid::HasFellow(std::size_t place) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/direction_cells.h"
+#include "scene/label_ranges.h"
 #include "scene/labelled_cloud.h"
 
 namespace clearway {
@@ -46,11 +47,13 @@ class DirectionGrid {
  private:
   void Fill(const LabelledCloud& cloud, const DirectionCells& cells);
   void CountCells(const std::vector<DirectionEntry>& entries);
+  void FindRanges();
   // The places in each of the three rows of cells about a place's.
   struct Run {
     std::size_t begin, end;
   };
-  std::array<Run, 3> RunsAbout(std::size_t place) const;
+  std::array<Run, 3> RunsAboutCell(std::uint32_t cell) const;
+  std::array<Run, 3> RunsAbout(std::size_t place) const { return RunsAboutCell(cells_[place]); }
   // Whether points have so few others about them that votes mean nothing.
   bool IsSparse() const;
 
@@ -61,8 +64,10 @@ class DirectionGrid {
   std::vector<std::uint32_t> indices_, cells_;
   std::vector<char> is_copy_;
   std::vector<ObjectId> labels_;
-  std::vector<std::uint32_t> alike_until_;         // the next place with another label; or size()
+  std::vector<std::uint32_t> filled_;              // its cell's place among those with points
   std::vector<float> x_m_, y_m_, z_m_, ranges_m_;  // from the sensor
+
+  std::vector<LabelRanges> ranges_about_;  // by filled_: of the cell's points and those about it
 };
 
 }  // namespace clearway

@@ -63,14 +63,19 @@ bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
   return IsOutvoted(votes) || (votes.fellows < kFewestFellows && votes.others > 0);
 }
 
-// Whether a static point is rather an object's.
-bool IsDoubtedOfStatic(std::size_t place, const Eigen::Vector3f& p_W,
-                       const DirectionGrid& directions, const PredictedObjects& objects) {
-  if (!directions.MayHaveOthers(place)) return false;
+enum class Doubt { kNone, kLittle, kEnough };
+
+// Whether a static point is rather an object's; if it is only beside one of an object's, there is
+// little to say so.
+Doubt DoubtOfStatic(std::size_t place, const Eigen::Vector3f& p_W, const DirectionGrid& directions,
+                    const PredictedObjects& objects) {
+  if (!directions.MayHaveOthers(place)) return Doubt::kNone;
   const DirectionGrid::Votes votes = directions.VotesOn(place);
-  if (IsOutvoted(votes)) return true;
+  if (IsOutvoted(votes)) return Doubt::kEnough;
+  if (votes.others == 0) return Doubt::kNone;
   // One alone is enough where an object is likely.
-  return votes.others > 0 && (objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place));
+  const bool is_likely = objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place);
+  return is_likely ? Doubt::kEnough : Doubt::kLittle;
 }
 
 // How many points of an object lie in each cube of a coarse grid.
@@ -144,13 +149,13 @@ std::size_t LeaveOutStray(const LabelledCloud& cloud, const VoxelGrid& cubes,
 
 }  // namespace
 
-std::size_t LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const SceneParams& params,
+LabelDoubts LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const SceneParams& params,
                              LabelledCloud& cloud) {
   constexpr double kVoxelsAcross = 16;  // a cube
-  if (cloud.object_hits.empty()) return 0;
+  LabelDoubts doubts;
+  if (cloud.object_hits.empty()) return doubts;
   const DirectionGrid directions(cloud);
   const PredictedObjects predicted(objects, stamp, params.horizon);
-  std::size_t doubted = 0;
   std::vector<char> is_doubted(cloud.ends_W.size());
   for (std::size_t place = 0; place < directions.size(); ++place) {
     if (directions.IsCopy(place)) continue;
@@ -158,18 +163,21 @@ std::size_t LeaveOutDoubtful(const SceneObjects& objects, Time stamp, const Scen
     RayEnd& kind = cloud.kinds[i];
     if (kind == RayEnd::kBlock) {
       is_doubted[i] = IsDoubtedOfObject(place, directions);
-    } else if (IsDoubtedOfStatic(place, cloud.ends_W[i], directions, predicted)) {
-      kind = RayEnd::kBlock;
-      ++doubted;
+      continue;
     }
+    const Doubt doubt = DoubtOfStatic(place, cloud.ends_W[i], directions, predicted);
+    if (doubt == Doubt::kLittle) doubts.believed_W.push_back(cloud.ends_W[i]);
+    if (doubt != Doubt::kEnough) continue;
+    kind = RayEnd::kBlock;
+    ++doubts.doubted;
   }
   const VoxelGrid cubes(kVoxelsAcross * params.resolution_m);
   for (auto& [id, points] : cloud.object_hits) {
-    doubted += std::erase_if(points, [&](std::uint32_t i) { return is_doubted[i]; });
-    doubted += LeaveOutStray(cloud, cubes, predicted.BoxOf(id), points);
+    doubts.doubted += std::erase_if(points, [&](std::uint32_t i) { return is_doubted[i]; });
+    doubts.doubted += LeaveOutStray(cloud, cubes, predicted.BoxOf(id), points);
   }
   std::erase_if(cloud.object_hits, [](const auto& entry) { return entry.second.empty(); });
-  return doubted;
+  return doubts;
 }
 
 }  // namespace clearway

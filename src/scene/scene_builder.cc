@@ -10,6 +10,7 @@
 #include "scene/labelled_cloud.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
+#include "scene/second_look.h"
 #include "scene/sensor_registration.h"
 
 namespace clearway {
@@ -107,8 +108,10 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   FrameReport report;
   report.T_W_S = frame.T_W_S;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  LabelDoubts doubts;
   if (scene_.params.filter_labels) {
-    report.points_doubted = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
+    doubts = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
+    report.points_doubted = doubts.doubted;
   }
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.LastingMap();
@@ -118,9 +121,10 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
   if (!cast.ok()) return cast.status();
   ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
+  UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
+  ForgetFilled(believed_W_, scene_.stamp, objects, static_map_W);
   DynamicSpace dynamic_W = StillIn(static_map_W, *cast);
   report.voxels_dynamic = dynamic_W.voxels().size();
-  UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   SceneObjects dropped_lately;
   Surroundings around_objects;
   if (scene_.params.reidentify) {
@@ -142,6 +146,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
+  believed_W_ = std::move(doubts.believed_W);
   dropped_lately_ = std::move(dropped_lately);
   around_objects_ = std::move(around_objects);
   scene_.objects.clear();
@@ -230,6 +235,7 @@ void SceneBuilder::Reset() {
   const std::uint64_t version = scene_.version;
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
+  believed_W_.clear();
   dropped_lately_.clear();
   around_objects_.clear();
   corrections_ = WorldCorrections(scene_.params.history);

@@ -25,5 +25,20 @@ TEST(ScanUpdate, MarksInTheRightBlock) {
   EXPECT_EQ(dut.Find({1, 0, 0})->end.Count(), 2);
 }
 
+TEST(ScanUpdate, KnowsWhereRaysEnd) {
+  ScanUpdate dut;
+  dut.MarkFree({0, 0, 0});
+  dut.MarkEnd({8, 0, 0});
+  dut.MarkHit({0, 9, 0});
+  dut.MarkFree({0, 0, 9});
+  dut.MarkHit({9, 0, 0});
+  dut.TakeHit({0, 9, 0});
+  EXPECT_EQ(dut.end_places(), (std::vector<std::size_t>{1, 2}));
+  BlockMask mask;
+  mask.Set(5);
+  dut.MarkEnd(BlockKey{0, 0, 1}, mask);
+  EXPECT_EQ(dut.end_places(), (std::vector<std::size_t>{1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace clearway

@@ -10,12 +10,14 @@
 
 #include "clearway/scene/scene_builder.h"
 #include "scene/direction_grid.h"
+#include "scene/occupied_centers.h"
 #include "support/frames.h"
 
 namespace clearway {
 namespace {
 
 using testing_support::AddPoint;
+using testing_support::At;
 using testing_support::FrameAt;
 using testing_support::Random;
 
@@ -81,7 +83,7 @@ class LabelFilter : public testing::Test {
     const LabelledCloud before = PlaceCloud(frame, params_, report);
     Outcome outcome;
     outcome.cloud = before;
-    outcome.doubted = LeaveOutDoubtful(objects, frame.stamp, params_, outcome.cloud);
+    outcome.doubted = LeaveOutDoubtful(objects, frame.stamp, params_, outcome.cloud).doubted;
     for (const auto& [id, points] : before.object_hits) {
       const auto& left = outcome.cloud.object_hits[id];
       const std::set<std::uint32_t> kept(left.begin(), left.end());
@@ -99,6 +101,12 @@ class LabelFilter : public testing::Test {
   ThreadPool pool_{1};
   SceneParams params_;
 };
+
+int OccupiedIn(const Aabb& box, const VoxelMap& map) {
+  const std::vector<Eigen::Vector3d> centers = OccupiedCenters(map);
+  return static_cast<int>(
+      std::ranges::count_if(centers, [&](const auto& center) { return box.Contains(center); }));
+}
 
 std::size_t PointsOf(ObjectId id, const Frame& frame) {
   return static_cast<std::size_t>(std::ranges::count(frame.labels, id));
@@ -234,6 +242,32 @@ TEST_F(LabelFilter, DoubtedPointsBlockTheirRays) {
   };
   EXPECT_EQ(static_state(false), VoxelState::kOccupied);
   EXPECT_NE(static_state(true), VoxelState::kOccupied);
+}
+
+// The front of a car that comes nearer: a strip of it is called static once, too wide to be
+// outvoted, before anybody knows the car. No ray passes there again.
+TEST_F(LabelFilter, WhatABelievedPointLeftInAnObjectIsForgotten) {
+  constexpr double kStep_m = 6, kPeriod_s = 0.1;
+  SceneBuilder builder(params_, {}, pool_);
+  const auto scan = [&](int k, bool strip_is_wrong) {
+    const double front_m = 20 - k * kStep_m;
+    const Thing car{kCar, {{front_m, -1, -1.6}, {front_m + 4, 1, -0.2}}};
+    Frame frame = Scan(k * kPeriod_s, {Street()[0], Street()[1], car});
+    for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+      const double slope = frame.points_S[i].y() / frame.points_S[i].x();
+      const bool is_in_strip = strip_is_wrong && slope > -0.03 && slope < -0.005;
+      if (frame.labels[i] == kCar && is_in_strip) frame.labels[i] = kStaticLabel;
+    }
+    const ObjectMotion motion{kCar, Pose::Translation(-kStep_m, 0, 0), At((k - 1) * kPeriod_s)};
+    if (k > 0) frame.motions.push_back(motion);
+    ASSERT_TRUE(builder.Apply(frame).ok());
+  };
+  const Aabb front_then_W{{13.9, -1, -1.4}, {14.1, 1, -0.3}};
+  scan(0, false);
+  scan(1, true);
+  EXPECT_GT(OccupiedIn(front_then_W, builder.Publish()->static_map_W), 20);
+  scan(2, false);
+  EXPECT_EQ(OccupiedIn(front_then_W, builder.Publish()->static_map_W), 0);
 }
 
 // A few points next to each other with a new id before nothing else: not enough to be an object.

@@ -23,18 +23,21 @@ class ScanUpdate {
   void MarkFree(VoxelKey key) { BlockFor(BlockOf(key)).free.Set(IndexInBlock(key)); }
   // These two tell the block's place in keys().
   std::size_t MarkHit(VoxelKey key) {
-    Block& block = BlockFor(BlockOf(key));
-    block.hit.Set(IndexInBlock(key));
-    block.end.Set(IndexInBlock(key));
-    return last_;
+    const std::size_t place = MarkEnd(key);
+    blocks_[place].hit.Set(IndexInBlock(key));
+    return place;
   }
   std::size_t MarkEnd(VoxelKey key) {
     BlockFor(BlockOf(key)).end.Set(IndexInBlock(key));
+    NoteEnd();
     return last_;
   }
   // Takes a hit back: a ray ended there, and that is all.
   void TakeHit(VoxelKey key) { BlockFor(BlockOf(key)).hit.Clear(IndexInBlock(key)); }
-  void MarkEnd(BlockKey key, const BlockMask& mask) { BlockFor(key).end |= mask; }
+  void MarkEnd(BlockKey key, const BlockMask& mask) {
+    BlockFor(key).end |= mask;
+    NoteEnd();
+  }
 
   bool Empty() const { return blocks_.empty(); }
   const Block* Find(BlockKey key) const;
@@ -42,16 +45,26 @@ class ScanUpdate {
   // first; block(i) is that of keys()[i].
   const std::vector<BlockKey>& keys() const { return keys_; }
   const Block& block(std::size_t i) const { return blocks_[i]; }
+  // The places in keys() of those in which a ray ended, each once.
+  const std::vector<std::size_t>& end_places() const { return end_places_; }
   void Reserve(std::size_t blocks);
   // Asks memory for the place of a block that will be marked soon.
   void Prefetch(BlockKey key) const { index_.prefetch(key); }
 
  private:
   Block& BlockFor(BlockKey key);
+  // In the block written last.
+  void NoteEnd() {
+    if (has_end_[last_] != 0) return;
+    has_end_[last_] = 1;
+    end_places_.push_back(last_);
+  }
 
   absl::flat_hash_map<BlockKey, std::size_t> index_;
   std::vector<BlockKey> keys_;
   std::vector<Block> blocks_;
+  std::vector<char> has_end_;  // by place
+  std::vector<std::size_t> end_places_;
   BlockKey last_key_;  // the block written last; rays stay in one block for several steps
   std::size_t last_ = 0;
 };

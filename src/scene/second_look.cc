@@ -1,0 +1,54 @@
+#include "scene/second_look.h"
+
+#include <algorithm>
+
+namespace clearway {
+namespace {
+
+// Null if it is not known where the object was.
+const StampedPose* PoseAt(const MovingObject& object, Time stamp) {
+  const auto entry = std::ranges::lower_bound(object.history, stamp, {}, &StampedPose::stamp);
+  return entry == object.history.end() || entry->stamp != stamp ? nullptr : &*entry;
+}
+
+// Whether the object fills the voxel that the point is in, or one half a voxel from it.
+bool FillsNear(const MovingObject& object, const Eigen::Vector3d& p_O) {
+  const VoxelGrid& grid = object.map_O.grid();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const VoxelKey voxel = grid.KeyOf(p_O + 0.5 * grid.resolution_m() * signs);
+    if (object.map_O.State(voxel) == VoxelState::kOccupied) return true;
+  }
+  return false;
+}
+
+void ForgetIfHitSeldom(VoxelKey voxel, VoxelMap& map) {
+  const VoxelBlock* before = map.blocks().Find(BlockOf(voxel));
+  const int at = IndexInBlock(voxel);
+  if (before == nullptr || !before->occupied.Test(at)) return;
+  const OccupancyModel& model = map.model();
+  if (before->log_odds[at] > model.AfterHit(model.AfterHit(0))) return;
+  VoxelBlock block = *before;
+  block.Forget(at);
+  map.PutBlock(BlockOf(voxel), block);
+}
+
+}  // namespace
+
+void ForgetFilled(std::span<const Eigen::Vector3f> believed_W, Time stamp, const ObjectMap& objects,
+                  VoxelMap& static_map_W) {
+  if (believed_W.empty()) return;
+  for (const auto& [id, object] : objects) {
+    const StampedPose* then = PoseAt(*object, stamp);
+    if (then == nullptr) continue;
+    const Aabb box_W = Transformed(then->T_W_O, object->observed_box_O);
+    const Pose T_O_W = Inverse(then->T_W_O);
+    for (const Eigen::Vector3f& point_W : believed_W) {
+      const Eigen::Vector3d p_W = point_W.cast<double>();
+      if (!box_W.Contains(p_W) || !FillsNear(*object, T_O_W * p_W)) continue;
+      ForgetIfHitSeldom(static_map_W.grid().KeyOf(p_W), static_map_W);
+    }
+  }
+}
+
+}  // namespace clearway

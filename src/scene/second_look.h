@@ -1,0 +1,18 @@
+// Labels that were believed, asked again when more is known.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "clearway/map/voxel_map.h"
+#include "scene/object_update.h"
+
+namespace clearway {
+
+// Points of the frame before, of that stamp, were believed to be static (LabelDoubts). The static
+// map forgets what it has of those that lie in an object as it is known by now, where it was then:
+// voxels that were hit once or twice, for more is no wrong label's doing.
+void ForgetFilled(std::span<const Eigen::Vector3f> believed_W, Time stamp, const ObjectMap& objects,
+                  VoxelMap& static_map_W);
+
+}  // namespace clearway
