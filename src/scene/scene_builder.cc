@@ -146,7 +146,8 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
-  believed_W_ = std::move(doubts.believed_W);
+  if (frame.stamp != scene_.stamp) believed_W_.clear();
+  believed_W_.insert(believed_W_.end(), doubts.believed_W.begin(), doubts.believed_W.end());
   dropped_lately_ = std::move(dropped_lately);
   around_objects_ = std::move(around_objects);
   scene_.objects.clear();

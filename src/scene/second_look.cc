@@ -11,7 +11,7 @@ const StampedPose* PoseAt(const MovingObject& object, Time stamp) {
   return entry == object.history.end() || entry->stamp != stamp ? nullptr : &*entry;
 }
 
-// Whether the object fills the voxel that the point is in, or one half a voxel from it.
+// Whether the object fills the point's voxel, or one that is half a voxel from it along each axis.
 bool FillsNear(const MovingObject& object, const Eigen::Vector3d& p_O) {
   const VoxelGrid& grid = object.map_O.grid();
   for (int corner = 0; corner < 8; ++corner) {
@@ -22,12 +22,11 @@ bool FillsNear(const MovingObject& object, const Eigen::Vector3d& p_O) {
   return false;
 }
 
-void ForgetIfHitSeldom(VoxelKey voxel, VoxelMap& map) {
+void ForgetIfHitOnce(VoxelKey voxel, VoxelMap& map) {
   const VoxelBlock* before = map.blocks().Find(BlockOf(voxel));
   const int at = IndexInBlock(voxel);
   if (before == nullptr || !before->occupied.Test(at)) return;
-  const OccupancyModel& model = map.model();
-  if (before->log_odds[at] > model.AfterHit(model.AfterHit(0))) return;
+  if (before->log_odds[at] > map.model().AfterHit(0)) return;
   VoxelBlock block = *before;
   block.Forget(at);
   map.PutBlock(BlockOf(voxel), block);
@@ -46,7 +45,7 @@ void ForgetFilled(std::span<const Eigen::Vector3f> believed_W, Time stamp, const
     for (const Eigen::Vector3f& point_W : believed_W) {
       const Eigen::Vector3d p_W = point_W.cast<double>();
       if (!box_W.Contains(p_W) || !FillsNear(*object, T_O_W * p_W)) continue;
-      ForgetIfHitSeldom(static_map_W.grid().KeyOf(p_W), static_map_W);
+      ForgetIfHitOnce(static_map_W.grid().KeyOf(p_W), static_map_W);
     }
   }
 }

@@ -9,9 +9,10 @@
 
 namespace clearway {
 
-// Points of the frame before, of that stamp, were believed to be static (LabelDoubts). The static
+// Points of the frames before, of that stamp, were believed to be static (LabelDoubts). The static
 // map forgets what it has of those that lie in an object as it is known by now, where it was then:
-// voxels that were hit once or twice, for more is no wrong label's doing.
+// voxels of which it knows no more than one hit tells. What is hit again, as the ground beside an
+// object at rest is, is no wrong label's doing.
 void ForgetFilled(std::span<const Eigen::Vector3f> believed_W, Time stamp, const ObjectMap& objects,
                   VoxelMap& static_map_W);
 

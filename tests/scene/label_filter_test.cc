@@ -270,6 +270,24 @@ TEST_F(LabelFilter, WhatABelievedPointLeftInAnObjectIsForgotten) {
   EXPECT_EQ(OccupiedIn(front_then_W, builder.Publish()->static_map_W), 0);
 }
 
+TEST_F(LabelFilter, GroundBesideAnObjectThatStandsStays) {
+  SceneBuilder builder(params_, {}, pool_);
+  const Thing car{kCar, {{8, -1, -1.72}, {12, 1, -0.2}}};
+  const auto scan = [&](int k) {
+    ASSERT_TRUE(builder.Apply(Scan(0.1 * k, {Street()[0], Street()[1], car}, 0.5, 0.1)).ok());
+  };
+  scan(0);
+  const std::vector<Eigen::Vector3d> first = OccupiedCenters(builder.Publish()->static_map_W);
+  for (int k = 1; k < 5; ++k) {
+    scan(k);
+    const VoxelMap& map_W = builder.Publish()->static_map_W;
+    const auto lost = std::ranges::count_if(first, [&](const Eigen::Vector3d& center_W) {
+      return map_W.State(map_W.grid().KeyOf(center_W)) != VoxelState::kOccupied;
+    });
+    EXPECT_EQ(lost, 0) << k;
+  }
+}
+
 // A few points next to each other with a new id before nothing else: not enough to be an object.
 TEST_F(LabelFilter, ObjectsDoNotBeginFromStrayPoints) {
   const auto created = [&](int points) {

@@ -89,7 +89,7 @@ TEST(Prospect, KeepsWhatSwingsWithinItsBound) {
 
 TEST(Prospect, OfOnePoseIsTheMotionThatWasTold) {
   const std::vector<StampedPose> track = {{At(0), Pose()}};
-  const Twist told_O{{}, {3, 0, 0}};
+  const Twist told_O{Eigen::Vector3d::Zero(), {3, 0, 0}};
   for (const MotionModel model : {MotionModel::kTrack, MotionModel::kLastMotion}) {
     EXPECT_EQ(ProspectOf(track, At(0), told_O, Body(), By(model)).velocity_O, told_O);
   }

@@ -106,7 +106,7 @@ class SceneBuilder {
       const std::function<absl::Status(std::vector<std::shared_ptr<const MovingObject>>&)>& change);
 
   SceneSnapshot scene_;  // its version is the one published last
-  // With SceneParams::filter_labels: the newest frame's static points that may be an object's.
+  // With SceneParams::filter_labels: static points of the newest stamp that may be an object's.
   std::vector<Eigen::Vector3f> believed_W_;
   // With SceneParams::reidentify: they could be seen again; and what rays show around objects, by
   // their id and in their O.
