@@ -66,7 +66,7 @@ struct SceneParams {
   bool reidentify = false;
   // Whether points are doubted whose label those around them in the scan do not bear out: outvoted
   // ones, an object's few that lie apart from the rest of it, and static ones next to an object's
-  // where it is predicted to be. Their rays clear free space, and they hit nothing.
+  // where it is predicted, or turns out a frame later to have been. They clear space, hit nothing.
   bool filter_labels = false;
 
   // Dynamic space: voxels of the static map that were known free for long (their log-odds at the
