@@ -68,13 +68,13 @@ Plot PlotOfGrowth(const TrueSource& source, const Evaluation& found) {
   return plot;
 }
 
-// An <img> of what `write` makes in a file that nobody else uses.
-absl::StatusOr<std::string> ImageOf(const std::string& scratch_file,
+// An <img> of what `write` makes in a file that nobody else uses. Titles are plain words.
+absl::StatusOr<std::string> ImageOf(const std::string& title, const std::string& scratch_file,
                                     const std::function<absl::Status(const std::string&)>& write) {
   if (absl::Status status = write(scratch_file); !status.ok()) return status;
   std::ifstream in(scratch_file, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  return absl::StrCat("<img style='max-width: 100%' src='data:image/png;base64,",
+  return absl::StrCat("<img alt='", title, "' style='max-width: 100%' src='data:image/png;base64,",
                       absl::Base64Escape(bytes), "'>\n");
 }
 
@@ -97,7 +97,7 @@ absl::StatusOr<std::string> PicturesOf(const std::string& scratch_file, const Tr
     with_all_objects.objects.push_back(object);
     sheet.names[id] = LabelOf(source, id);
   }
-  const auto objects = ImageOf(scratch_file, [&](const std::string& file) {
+  const auto objects = ImageOf(sheet.title, scratch_file, [&](const std::string& file) {
     return WriteObjectSheet(with_all_objects, sheet, file);
   });
   if (!objects.ok()) return objects.status();
@@ -106,7 +106,7 @@ absl::StatusOr<std::string> PicturesOf(const std::string& scratch_file, const Tr
   for (const auto& object : found.scene->objects) {
     view.names[object->id] = NameNow(source, *found.scene, *object);
   }
-  const auto scene = ImageOf(scratch_file, [&](const std::string& file) {
+  const auto scene = ImageOf(view.title, scratch_file, [&](const std::string& file) {
     return WriteTopView(*found.scene, view, file);
   });
   if (!scene.ok()) return scene.status();

@@ -38,6 +38,12 @@ class PredictedObjects {
       return map_O.State(map_O.grid().KeyOf(object.T_O_W * p_W)) == VoxelState::kOccupied;
     });
   }
+  // Whether the box about one holds the point, or would if it were a voxel larger each way.
+  bool MayHold(const Eigen::Vector3d& p_W) const {
+    return std::ranges::any_of(placed_, [&](const Placed& object) {
+      return object.box_W.Padded(object.object->map_O.grid().resolution_m()).Contains(p_W);
+    });
+  }
   // Empty for one of which nothing is predicted.
   Aabb BoxOf(ObjectId id) const {
     const auto found = std::ranges::find_if(
@@ -65,14 +71,18 @@ bool IsDoubtedOfObject(std::size_t place, const DirectionGrid& directions) {
 
 enum class Doubt { kNone, kLittle, kEnough };
 
-// Whether a static point is rather an object's; if it is only beside one of an object's, there is
-// little to say so.
+// Whether a static point is rather an object's; if it is only beside one of an object's, or all
+// alone where an object may be, there is little to say so.
 Doubt DoubtOfStatic(std::size_t place, const Eigen::Vector3f& p_W, const DirectionGrid& directions,
                     const PredictedObjects& objects) {
-  if (!directions.MayHaveOthers(place)) return Doubt::kNone;
-  const DirectionGrid::Votes votes = directions.VotesOn(place);
+  const bool may_have_others = directions.MayHaveOthers(place);
+  const DirectionGrid::Votes votes =
+      may_have_others ? directions.VotesOn(place) : DirectionGrid::Votes();
   if (IsOutvoted(votes)) return Doubt::kEnough;
-  if (votes.others == 0) return Doubt::kNone;
+  if (votes.others == 0) {
+    const bool is_alone = objects.MayHold(p_W.cast<double>()) && !directions.HasFellow(place);
+    return is_alone ? Doubt::kLittle : Doubt::kNone;
+  }
   // One alone is enough where an object is likely.
   const bool is_likely = objects.Fill(p_W.cast<double>()) || !directions.HasFellow(place);
   return is_likely ? Doubt::kEnough : Doubt::kLittle;

@@ -12,7 +12,7 @@ namespace clearway {
 
 struct LabelDoubts {
   std::size_t doubted = 0;                  // points
-  std::vector<Eigen::Vector3f> believed_W;  // static ones, though beside an object's
+  std::vector<Eigen::Vector3f> believed_W;  // static ones, though an object may be there
 };
 
 // Doubts the labels (SceneParams::filter_labels) that the points around do not bear out, those of

@@ -158,8 +158,8 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
       Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const std::string html = BytesOf(page);
-  for (const char* part :
-       {"<!doctype html>", "<svg", "maps grow", "map / box", "--frames 12", "</html>"}) {
+  for (const char* part : {"<!doctype html>", "<svg", "maps grow", "map / box", "--frames 12",
+                           "alt='The scene after", "</html>"}) {
     EXPECT_THAT(html, HasSubstr(part));
   }
   const std::string image = "src='data:image/png;base64,";

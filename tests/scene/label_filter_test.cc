@@ -270,6 +270,30 @@ TEST_F(LabelFilter, WhatABelievedPointLeftInAnObjectIsForgotten) {
   EXPECT_EQ(OccupiedIn(front_then_W, builder.Publish()->static_map_W), 0);
 }
 
+// A single point on a car that is known, with none of the car's beside it, a person's far behind.
+TEST_F(LabelFilter, WhatALonePointLeftInAnObjectIsForgotten) {
+  SceneBuilder builder(params_, {}, pool_);
+  for (int k = 0; k < 4; ++k) ASSERT_TRUE(builder.Apply(Scan(0.1 * k, Street())).ok());
+  const Eigen::Vector3d alone_W(8.02, 0.87, -1.02);
+  const auto glimpse = [&](int k) {
+    Frame frame = FrameAt(0.1 * k);
+    for (int i = 0; i < 12; ++i) {
+      AddPoint(frame, kCar, {8, -0.9 + 0.05 * (i / 2), -1.5 + 0.1 * (i % 2)});
+    }
+    AddPoint(frame, kPerson, 1.2 * alone_W);
+    if (k == 4) AddPoint(frame, kStaticLabel, alone_W);
+    ASSERT_TRUE(builder.Apply(frame).ok());
+  };
+  const auto state = [&] {
+    const VoxelMap& map_W = builder.Publish()->static_map_W;
+    return map_W.State(map_W.grid().KeyOf(alone_W));
+  };
+  glimpse(4);
+  EXPECT_EQ(state(), VoxelState::kOccupied);
+  glimpse(5);
+  EXPECT_NE(state(), VoxelState::kOccupied);
+}
+
 TEST_F(LabelFilter, GroundBesideAnObjectThatStandsStays) {
   SceneBuilder builder(params_, {}, pool_);
   const Thing car{kCar, {{8, -1, -1.72}, {12, 1, -0.2}}};
