@@ -51,4 +51,8 @@ Rect LabelPlaces::Take(const Rect& named, const Eigen::Vector2d& size) {
   return taken_.emplace_back(InFrame(Above(named, size, 0)));
 }
 
+bool LabelPlaces::IsFar(const Rect& label, const Rect& named) {
+  return label.exteriorDistance(named) > 2 * kGapPx;
+}
+
 }  // namespace clearway::report

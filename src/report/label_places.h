@@ -20,6 +20,9 @@ class LabelPlaces {
   // below it, else a few lines farther. Where no place is clear, above it all the same.
   Rect Take(const Rect& named, const Eigen::Vector2d& size);
 
+  // Whether it is so far from what it names that one could take it for another's.
+  static bool IsFar(const Rect& label, const Rect& named);
+
  private:
   Rect InFrame(Rect label) const;
 

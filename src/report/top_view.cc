@@ -173,14 +173,19 @@ class TopViewPainter {
     const report::Rect frame(view_.top_left(), view_.top_left() + view_.size_px());
     report::LabelPlaces places(frame);
     for (const SceneAtTime::Placed& placed : now_.objects()) places.KeepClear(PixelsOf(placed));
+    std::vector<std::pair<Eigen::Vector2d, std::string>> texts;  // over all lines
     for (const SceneAtTime::Placed& placed : now_.objects()) {
       const report::Rect named = PixelsOf(placed);
       if (!frame.intersects(named)) continue;
       const std::string text = LabelOf(*placed.object);
       const double width_px = canvas_.TextWidth(text, kStyle) + kStyle.halo_px;
       const report::Rect label = places.Take(named, {width_px, kLinePx});
-      canvas_.Text({label.center().x(), label.max().y() - kBaselinePx}, text, kStyle);
+      texts.push_back({{label.center().x(), label.max().y() - kBaselinePx}, text});
+      if (!report::LabelPlaces::IsFar(label, named)) continue;
+      const std::array<Eigen::Vector2d, 2> leader{label.center(), named.center()};
+      canvas_.Line(leader, {palette::kInk, 1.2});
     }
+    for (const auto& [position, text] : texts) canvas_.Text(position, text, kStyle);
   }
 
   report::Rect PixelsOf(const SceneAtTime::Placed& placed) const {

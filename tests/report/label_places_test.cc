@@ -64,6 +64,15 @@ TEST(LabelPlaces, NoneCoversAnotherWhereThereIsRoom) {
   }
 }
 
+TEST(LabelPlaces, TellsThoseThatCouldBeAnothers) {
+  LabelPlaces dut(kFrame);
+  const Rect above = dut.Take(SquareAt(300, 200), kSize),
+             below = dut.Take(SquareAt(300, 200), kSize);
+  EXPECT_FALSE(LabelPlaces::IsFar(above, SquareAt(300, 200)));
+  EXPECT_FALSE(LabelPlaces::IsFar(below, SquareAt(300, 200)));
+  EXPECT_TRUE(LabelPlaces::IsFar(dut.Take(SquareAt(300, 200), kSize), SquareAt(300, 200)));
+}
+
 TEST(LabelPlaces, ACrowdIsLabelledAllTheSame) {
   LabelPlaces dut(kFrame);
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(kFrame.contains(dut.Take(SquareAt(300, 200), kSize)));
