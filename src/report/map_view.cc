@@ -17,6 +17,8 @@ double RoundLength(double length) {
   return power;
 }
 
+double ScaleLength_m(const MapView& view) { return RoundLength(view.area_W().Size().x() / 5); }
+
 void DrawArrow(Canvas& canvas, const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
                const std::string& name) {
   constexpr double kLengthPx = 34, kHeadPx = 8;
@@ -68,14 +70,19 @@ void DrawDynamic(Canvas& canvas, const MapView& view, const SceneSnapshot& scene
   }
 }
 
+Eigen::AlignedBox2d ScaleArea(const MapView& view) {
+  const Eigen::Vector2d corner = view.top_left() + Eigen::Vector2d(14, view.size_px().y() - 88);
+  return {corner, corner + Eigen::Vector2d(ScaleLength_m(view) * view.px_per_m() + 120, 74)};
+}
+
 void DrawScale(Canvas& canvas, const MapView& view) {
-  const double length_m = RoundLength(view.area_W().Size().x() / 5);
+  const double length_m = ScaleLength_m(view);
   const double length_px = length_m * view.px_per_m();
-  const Eigen::Vector2d corner = view.top_left() + Eigen::Vector2d(0, view.size_px().y());
-  canvas.FillRect(corner.x() + 14, corner.y() - 88, length_px + 120, 74,
+  const Eigen::AlignedBox2d area = ScaleArea(view);
+  canvas.FillRect(area.min().x(), area.min().y(), area.sizes().x(), area.sizes().y(),
                   palette::kPaper.WithAlpha(0.85));
 
-  const Eigen::Vector2d origin = corner + Eigen::Vector2d(30, -30);
+  const Eigen::Vector2d origin(area.min().x() + 16, area.max().y() - 16);
   DrawArrow(canvas, origin, {1, 0}, "x");
   DrawArrow(canvas, origin, {0, -1}, "y");
 

@@ -44,5 +44,6 @@ void DrawDynamic(Canvas& canvas, const MapView& view, const SceneSnapshot& scene
 // A round length of about a fifth of the view, and the directions of W's axes, in the lower left
 // corner.
 void DrawScale(Canvas& canvas, const MapView& view);
+Eigen::AlignedBox2d ScaleArea(const MapView& view);  // what that covers, in pixels
 
 }  // namespace clearway::report

@@ -22,7 +22,9 @@ namespace palette = report::palette;
 constexpr std::array kKinds{ViewKind::kOblique, ViewKind::kTop, ViewKind::kSide, ViewKind::kFront};
 constexpr double kMarginPx = 32;
 constexpr double kHeaderPx = 72;
-constexpr double kGapPx = 48;  // between the views of a row, at least
+constexpr double kMorePx = 48;         // a line below all rows
+constexpr double kMostHeightPx = 3e4;  // Cairo's pictures reach to 32,767
+constexpr double kGapPx = 48;          // between the views of a row, at least
 constexpr double kWidestGapPx = 140;
 constexpr double kCaptionPx = 56;  // above the views of a row
 constexpr double kFooterPx = 56;   // below them
@@ -130,9 +132,13 @@ absl::Status WriteObjectSheet(const SceneSnapshot& scene, const ObjectSheetOptio
   std::vector<Row> rows;
   double height_px = kHeaderPx;
   for (const MovingObject* object : *objects) {
-    rows.push_back(RowOf(*object, width_px));
-    height_px += rows.back().height_px();
+    Row row = RowOf(*object, width_px);
+    if (height_px + row.height_px() + kMorePx > kMostHeightPx) break;
+    height_px += row.height_px();
+    rows.push_back(std::move(row));
   }
+  const std::size_t more = objects->size() - rows.size();
+  if (more > 0) height_px += kMorePx;
   Canvas canvas(options.width_px, static_cast<int>(std::ceil(height_px)));
   canvas.Text({kMarginPx, 46}, options.title, {.size_px = 27, .bold = true});
   if (std::ranges::any_of(rows, [](const Row& row) { return row.views->HasPale(); })) {
@@ -146,6 +152,9 @@ absl::Status WriteObjectSheet(const SceneSnapshot& scene, const ObjectSheetOptio
             name != options.names.end() ? name->second : absl::StrCat("object ", row.object->id), y,
             width_px);
     y += row.height_px();
+  }
+  if (more > 0) {
+    canvas.Text({kMarginPx, y + 30}, absl::StrCat("and ", more, " more"), {.size_px = 20});
   }
   return canvas.WritePng(png_file);
 }

@@ -172,6 +172,7 @@ class TopViewPainter {
     constexpr double kLinePx = 22, kBaselinePx = 6;  // the latter from below
     const report::Rect frame(view_.top_left(), view_.top_left() + view_.size_px());
     report::LabelPlaces places(frame);
+    places.KeepClear(report::ScaleArea(view_));
     for (const SceneAtTime::Placed& placed : now_.objects()) places.KeepClear(PixelsOf(placed));
     std::vector<std::pair<Eigen::Vector2d, std::string>> texts;  // over all lines
     for (const SceneAtTime::Placed& placed : now_.objects()) {
@@ -188,10 +189,14 @@ class TopViewPainter {
     for (const auto& [position, text] : texts) canvas_.Text(position, text, kStyle);
   }
 
+  // About what is drawn of it: without the room of its bound, which grows while it is unseen.
   report::Rect PixelsOf(const SceneAtTime::Placed& placed) const {
-    const Aabb& box_W = placed.box_W;
-    report::Rect rect(view_.ToPixels(Eigen::Vector2d(box_W.min.x(), box_W.max.y())));
-    return rect.extend(view_.ToPixels(Eigen::Vector2d(box_W.max.x(), box_W.min.y())));
+    report::Rect rect;
+    for (const Eigen::Vector2d& corner :
+         view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O))) {
+      rect.extend(corner);
+    }
+    return rect;
   }
 
   void PaintLegend() {

@@ -80,7 +80,7 @@ Doubt DoubtOfStatic(std::size_t place, const Eigen::Vector3f& p_W, const Directi
       may_have_others ? directions.VotesOn(place) : DirectionGrid::Votes();
   if (IsOutvoted(votes)) return Doubt::kEnough;
   if (votes.others == 0) {
-    const bool is_alone = objects.MayHold(p_W.cast<double>()) && !directions.HasFellow(place);
+    const bool is_alone = !directions.HasFellow(place) && objects.MayHold(p_W.cast<double>());
     return is_alone ? Doubt::kLittle : Doubt::kNone;
   }
   // One alone is enough where an object is likely.

@@ -217,6 +217,7 @@ absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
     scene_.static_map_W.PutBlock(key, block);
   });
   scene_.dynamic_W = WithoutObserved(scene_.dynamic_W, prior_W);
+  believed_W_.clear();  // what the prior says there stays
   changed_ = true;
   return absl::OkStatus();
 }

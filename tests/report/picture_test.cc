@@ -143,6 +143,17 @@ TEST(ObjectSheet, GrowsByARowForEachObject) {
   EXPECT_GT(Picture(file).height(), one + 100);
 }
 
+TEST(ObjectSheet, OfVeryManyObjectsShowsAsManyAsFit) {
+  SceneSnapshot scene = TestScene();
+  scene.objects.clear();
+  for (ObjectId id = 1; id <= 150; ++id) {
+    scene.objects.push_back(BoxObject(id, {2, 1, 1}, Pose{}, scene.stamp));
+  }
+  const std::string file = FileFor("many.png");
+  ASSERT_TRUE(WriteObjectSheet(scene, {}, file).ok());
+  EXPECT_GT(Picture(file).height(), 20000);
+}
+
 TEST(ObjectSheet, AnObjectWithoutVoxelsIsARowOfTextAlone) {
   SceneSnapshot scene = TestScene();
   MovingObject empty;

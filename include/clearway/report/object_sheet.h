@@ -19,7 +19,8 @@ struct ObjectSheetOptions {
 };
 
 // Writes a PNG with one row for each object: its occupied voxels obliquely, from above, from the
-// side and from the front, all views of a row to one scale; nearer voxels are darker. NOT_FOUND for
+// side and from the front, all views of a row to one scale; nearer voxels are darker. At most
+// 30,000 pixels high, about 80 rows: then it says how many more objects there are. NOT_FOUND for
 // an object that is not in the scene, INTERNAL if the file cannot be written.
 absl::Status WriteObjectSheet(const SceneSnapshot& scene, const ObjectSheetOptions& options,
                               const std::string& png_file);
