@@ -10,6 +10,7 @@
 #include "scene/other_shape.h"
 #include "scene/reidentification.h"
 #include "scene/same_object.h"
+#include "scene/sparse_sight.h"
 
 namespace clearway {
 namespace {
@@ -139,13 +140,16 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
 // onto the other. Each doubt is told in parts of what is enough alone; they add up as errors do
 // that have nothing to do with each other. What is known of the lost one is of many views, blurred
 // by the errors of their poses: of it rays may pass more than of the new one, seen from one side.
+// Where few beams have met the new one, what is between them may be another's.
 bool AreTwo(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-            const Surroundings& around, const SceneParams& params) {
-  constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025;
-  const Eigen::Vector3d doubts(
+            const Surroundings& around, const Eigen::Vector3d& sensor_W,
+            const SceneParams& params) {
+  constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025, kEnoughBetweenBeams = 0.08;
+  const Eigen::Vector4d doubts(
       ShareSeenThrough(lost, young, T_Y_L, around.at(young.id)) / kEnoughOfLost,
       ShareSeenThrough(young, lost, Inverse(T_Y_L), around.at(lost.id)) / kEnoughOfYoung,
-      HeightOff(lost, young, T_Y_L, params));
+      HeightOff(lost, young, T_Y_L, params),
+      ShareMissedBetweenBeams(young, sensor_W) / kEnoughBetweenBeams);
   return doubts.norm() > 1;
 }
 
@@ -198,7 +202,8 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 }
 
 std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around, const SceneParams& params, ThreadPool& pool) {
+                          const Surroundings& around, const Eigen::Vector3d& sensor_W,
+                          const SceneParams& params, ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
   std::vector<Match> sure;
   for (Match match : matches) {
@@ -207,7 +212,7 @@ std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately
     const VoxelMap& around_Y = around.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
     if (FitsThere(lost, young, match.T_Y_L, params) &&
-        !AreTwo(lost, young, match.T_Y_L, around, params)) {
+        !AreTwo(lost, young, match.T_Y_L, around, sensor_W, params)) {
       sure.push_back(match);
     }
   }

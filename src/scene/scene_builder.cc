@@ -133,7 +133,8 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
     around_objects =
         SeenAround(around_objects_, objects, cloud, frame.stamp, scene_.params, *pool_);
     report.objects_reidentified =
-        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_objects, scene_.params, *pool_);
+        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_objects, frame.T_W_S.translation,
+                      scene_.params, *pool_);
     std::erase_if(around_objects,
                   [&](const auto& entry) { return !objects.contains(entry.first); });
   }

@@ -102,5 +102,23 @@ TEST_F(OtherShape, IsToldByDoubtsThatAddUp) {
   EXPECT_FALSE(Same(1, 2));
 }
 
+// What is between beams that are wide apart may be another's: so nobody is known by them.
+TEST_F(OtherShape, IsNotToldByFewBeams) {
+  struct Case {
+    RoadUserShape lost, young;
+    double beams_apart_deg;
+    bool is_known;
+  };
+  const RoadUserShape raised = Raised(kPedestrian, 0.3);
+  for (const auto& [lost, young, beams_apart_deg, is_known] :
+       {Case{raised, kPedestrian, 0.4, false}, Case{raised, kPedestrian, 3, false},
+        Case{kPedestrian, kPedestrian, 0.4, true}, Case{kPedestrian, kPedestrian, 3, false}}) {
+    BeginAnew();
+    beams_apart_deg_ = beams_apart_deg;
+    LoseAndSee(lost, young);
+    EXPECT_EQ(Same(1, 2), is_known) << lost.boxes_B[0].max << beams_apart_deg;
+  }
+}
+
 }  // namespace
 }  // namespace clearway

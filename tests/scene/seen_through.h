@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -87,6 +89,8 @@ class SeenThrough : public testing::Test {
   std::optional<double> background_s_;
   // A wall before it, from so far ahead of its middle on.
   std::optional<double> wall_from_m_;
+  // Of the object, only what is hit by beams that are so far apart.
+  std::optional<double> beams_apart_deg_;
   // Of the object, the faces that are not hit, by their normals.
   std::vector<Eigen::Vector3d> unseen_faces_;
   // So far ahead of where it would have come.
@@ -108,10 +112,16 @@ class SeenThrough : public testing::Test {
           return normal.dot(p) > box_B.Size().dot(normal.cwiseAbs()) / 2 - 1e-6;
         };
         return (wall_from_m_ && (center_B + p).x() > *wall_from_m_) ||
-               std::ranges::any_of(unseen_faces_, is_of);
+               IsBetweenBeams(T_W_B * (center_B + p)) || std::ranges::any_of(unseen_faces_, is_of);
       });
       testing_support::AddObject(frame, id, T_W_B * Pose{.translation = center_B}, surface);
     }
+  }
+  bool IsBetweenBeams(const Eigen::Vector3d& p_W) const {
+    if (!beams_apart_deg_) return false;
+    constexpr double kBeam_deg = 0.25;  // to either side
+    const double up_deg = std::atan2(p_W.z(), p_W.head<2>().norm()) * 180 / std::numbers::pi;
+    return std::abs(std::remainder(up_deg, *beams_apart_deg_)) > kBeam_deg;
   }
   // Of the house, what the sensor sees beside the object and the wall; and that wall.
   void AddBehind(const RoadUserShape& shape, const Pose& T_W_B, Frame& frame) const {

@@ -65,8 +65,8 @@ struct SceneParams {
   // the other names it too.
   bool reidentify = false;
   // Whether points are doubted whose label those around them in the scan do not bear out: outvoted
-  // ones, an object's few that lie apart from the rest of it, and static ones next to an object's
-  // where it is predicted, or turns out a frame later to have been. They clear space, hit nothing.
+  // ones, an object's few that lie apart from the rest of it, and static ones, alone or next to an
+  // object's, where one is predicted or turns out to have been. They clear space and hit nothing.
   bool filter_labels = false;
 
   // Dynamic space: voxels of the static map that were known free for long (their log-odds at the
