@@ -6,15 +6,14 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "clearway/scene/occupancy.h"
-#include "report/label_places.h"
 #include "report/legend.h"
 #include "report/map_view.h"
+#include "report/name_painter.h"
 #include "report/path_painter.h"
 
 namespace clearway {
 namespace {
 
-using report::Align;
 using report::Canvas;
 using report::Color;
 using report::MapView;
@@ -84,7 +83,7 @@ class TopViewPainter {
     for (const TopViewPath& path : options_.paths) {
       report::DrawPath(canvas_, view_, times_, options_, path);
     }
-    PaintLabels();
+    PaintNames();
     report::DrawScale(canvas_, view_);
     canvas_.ResetClip();
     canvas_.Outline(
@@ -119,10 +118,14 @@ class TopViewPainter {
     canvas_.Text({kMarginPx, 75}, options_.subtitle, {.size_px = 17, .color = palette::kMuted});
   }
 
+  // In pixels, without the room of its bound.
+  Polygon OutlineOf(const SceneAtTime::Placed& placed) const {
+    return view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
+  }
+
   void PaintObjects() {
     for (const SceneAtTime::Placed& placed : now_.objects()) {
-      const Polygon outline =
-          view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
+      const Polygon outline = OutlineOf(placed);
       const bool moving = placed.object->SpeedMps() >= kMovingMps;
       canvas_.Fill(outline, (moving ? palette::kMoving : palette::kResting).WithAlpha(0.9));
       canvas_.Outline(outline, {palette::kInk, 1.2});
@@ -137,8 +140,7 @@ class TopViewPainter {
       const SceneAtTime then(scene_, time);
       for (const SceneAtTime::Placed& placed : then.objects()) {
         if (placed.object->SpeedMps() < kMovingMps) continue;
-        const Polygon outline =
-            view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
+        const Polygon outline = OutlineOf(placed);
         canvas_.Fill(outline, color.WithAlpha(0.08));
         canvas_.Outline(outline, {color, 2.2});
         if (placed.beyond_horizon_radius_m) {
@@ -165,38 +167,12 @@ class TopViewPainter {
     return text;
   }
 
-  // Of the objects that are in the picture.
-  void PaintLabels() {
-    constexpr report::TextStyle kStyle{
-        .size_px = 17, .align = Align::kCenter, .bold = true, .halo_px = 5};
-    constexpr double kLinePx = 22, kBaselinePx = 6;  // the latter from below
-    const report::Rect frame(view_.top_left(), view_.top_left() + view_.size_px());
-    report::LabelPlaces places(frame);
-    places.KeepClear(report::ScaleArea(view_));
-    for (const SceneAtTime::Placed& placed : now_.objects()) places.KeepClear(PixelsOf(placed));
-    std::vector<std::pair<Eigen::Vector2d, std::string>> texts;  // over all lines
+  void PaintNames() {
+    std::vector<report::NamedOutline> outlines;
     for (const SceneAtTime::Placed& placed : now_.objects()) {
-      const report::Rect named = PixelsOf(placed);
-      if (!frame.intersects(named)) continue;
-      const std::string text = LabelOf(*placed.object);
-      const double width_px = canvas_.TextWidth(text, kStyle) + kStyle.halo_px;
-      const report::Rect label = places.Take(named, {width_px, kLinePx});
-      texts.push_back({{label.center().x(), label.max().y() - kBaselinePx}, text});
-      if (!report::LabelPlaces::IsFar(label, named)) continue;
-      const std::array<Eigen::Vector2d, 2> leader{label.center(), named.center()};
-      canvas_.Line(leader, {palette::kInk, 1.2});
+      outlines.push_back({OutlineOf(placed), LabelOf(*placed.object)});
     }
-    for (const auto& [position, text] : texts) canvas_.Text(position, text, kStyle);
-  }
-
-  // About what is drawn of it: without the room of its bound, which grows while it is unseen.
-  report::Rect PixelsOf(const SceneAtTime::Placed& placed) const {
-    report::Rect rect;
-    for (const Eigen::Vector2d& corner :
-         view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O))) {
-      rect.extend(corner);
-    }
-    return rect;
+    report::DrawNames(canvas_, view_, outlines);
   }
 
   void PaintLegend() {

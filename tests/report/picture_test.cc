@@ -9,6 +9,7 @@
 #include "clearway/report/object_sheet.h"
 #include "clearway/report/top_view.h"
 #include "report/color.h"
+#include "report/name_painter.h"
 #include "report/test_scene.h"
 
 namespace clearway {
@@ -125,6 +126,29 @@ TEST(TopView, RefusesAFileItCannotWrite) {
   const absl::Status status = WriteTopView(TestScene(), {}, "/nonexistent/top.png");
   EXPECT_EQ(status.code(), absl::StatusCode::kInternal);
   EXPECT_NE(std::string(status.message()).find("/nonexistent/top.png"), std::string::npos);
+}
+
+// The names of what lies at a map's middle, 20 pixels wide, with or without much above and below.
+Picture NamesAmongOthers(bool among_others) {
+  report::Canvas canvas(400, 400);
+  const report::MapView view(Aabb{{0, 0, 0}, {4, 4, 0}}, {0, 0}, 400);
+  const auto rect = [](double x0, double y0, double x1, double y1) -> Polygon {
+    return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+  };
+  std::vector<report::NamedOutline> outlines{{rect(190, 190, 210, 210), "named"}};
+  if (among_others) {
+    outlines.push_back({rect(100, 140, 300, 188), ""});
+    outlines.push_back({rect(100, 212, 300, 260), ""});
+  }
+  report::DrawNames(canvas, view, outlines);
+  const std::string file = FileFor(among_others ? "among.png" : "alone.png");
+  EXPECT_TRUE(canvas.WritePng(file).ok());
+  return Picture(file);
+}
+
+TEST(TopView, ALineLeadsFromANameThatIsNotBesideWhatItNames) {
+  EXPECT_EQ(NamesAmongOthers(false).At(200, 196), palette::kPaper.Rgb24());
+  EXPECT_TRUE(Near(NamesAmongOthers(true).At(200, 160), palette::kInk.Rgb24(), 90));
 }
 
 TEST(ObjectSheet, Empty) {
