@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -137,20 +138,33 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
 }
 
 // Whether they are two, by what was seen around either and by how far one would have been lifted
-// onto the other. Each doubt is told in parts of what is enough alone; they add up as errors do
-// that have nothing to do with each other. What is known of the lost one is of many views, blurred
-// by the errors of their poses: of it rays may pass more than of the new one, seen from one side.
-// Where few beams have met the new one, what is between them may be another's.
-bool AreTwo(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
-            const Surroundings& around, const Eigen::Vector3d& sensor_W,
-            const SceneParams& params) {
-  constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025, kEnoughBetweenBeams = 0.08;
-  const Eigen::Vector4d doubts(
-      ShareSeenThrough(lost, young, T_Y_L, around.at(young.id)) / kEnoughOfLost,
-      ShareSeenThrough(young, lost, Inverse(T_Y_L), around.at(lost.id)) / kEnoughOfYoung,
-      HeightOff(lost, young, T_Y_L, params),
-      ShareMissedBetweenBeams(young, sensor_W) / kEnoughBetweenBeams);
-  return doubts.norm() > 1;
+// onto the other: above 1 they are. Each doubt is told in parts of what is enough alone; they add
+// up as errors do that have nothing to do with each other. What is known of the lost one is of many
+// views, blurred by the errors of their poses: of it rays may pass more than of the new one, seen
+// from one side.
+double DoubtOf(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
+               const Surroundings& around, const SceneParams& params) {
+  constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025;
+  return Eigen::Vector3d(
+             ShareSeenThrough(lost, young, T_Y_L, around.at(young.id)) / kEnoughOfLost,
+             ShareSeenThrough(young, lost, Inverse(T_Y_L), around.at(lost.id)) / kEnoughOfYoung,
+             HeightOff(lost, young, T_Y_L, params))
+      .norm();
+}
+
+// The same where beams are wide apart: the few there are tell half of what there is to doubt, and
+// what is between them may be another's.
+double DoubtIfSparse(double doubt, const MovingObject& young) {
+  constexpr double kToldByFew = 0.5, kEnoughOfHeights = 0.15;
+  return std::hypot(doubt / kToldByFew, ShareOfHeightsMissed(young) / kEnoughOfHeights);
+}
+
+bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& cloud, Time stamp,
+            const Surroundings& around, const SceneParams& params) {
+  const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
+  const double doubt = DoubtOf(lost, young, match.T_Y_L, around, params);
+  if (doubt > 1) return true;
+  return IsSeenSparsely(young, cloud, stamp, params) && DoubtIfSparse(doubt, young) > 1;
 }
 
 }  // namespace
@@ -201,8 +215,8 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
   return dropped;
 }
 
-std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around, const Eigen::Vector3d& sensor_W,
+std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately,
+                          const LabelledCloud& cloud, Time stamp, const Surroundings& around,
                           const SceneParams& params, ThreadPool& pool) {
   const std::vector<Match> matches = FindMatches(objects, stamp, params);
   std::vector<Match> sure;
@@ -212,7 +226,7 @@ std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately
     const VoxelMap& around_Y = around.at(match.young);
     match.T_Y_L = MutualFit(lost.map_O, young.map_O, around_Y, match.T_Y_L);
     if (FitsThere(lost, young, match.T_Y_L, params) &&
-        !AreTwo(lost, young, match.T_Y_L, around, sensor_W, params)) {
+        !AreTwo(match, objects, cloud, stamp, around, params)) {
       sure.push_back(match);
     }
   }

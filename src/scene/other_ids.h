@@ -1,7 +1,6 @@
 // Objects that go by several ids, because they were lost and seen again (SceneParams::reidentify).
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <memory>
 #include <set>
@@ -9,6 +8,7 @@
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/moving_object.h"
 #include "scene/given_object.h"
+#include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
 #include "scene/surroundings.h"
 
@@ -33,10 +33,10 @@ SceneObjects DroppedLately(const SceneObjects& dropped_before, const SceneObject
 // Nothing is joined that could be one of two, dropped ones included, nor what is a part of
 // something or has parts, nor what, laid on the lost one as well as it can be, is not near where
 // that one was to be, or has another shape by what was seen around both (`around`, of all that are
-// not given: see SeenAround), or was met by too few beams of the sensor (in W) to tell. Returns how
-// many were.
-std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately, Time stamp,
-                          const Surroundings& around, const Eigen::Vector3d& sensor_W,
+// not given: see SeenAround), or was met by too few beams of that stamp's cloud to tell. Returns
+// how many were.
+std::size_t JoinSeenAgain(ObjectMap& objects, const SceneObjects& dropped_lately,
+                          const LabelledCloud& cloud, Time stamp, const Surroundings& around,
                           const SceneParams& params, ThreadPool& pool);
 
 }  // namespace clearway

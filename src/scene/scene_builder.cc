@@ -132,9 +132,8 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
         DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
     around_objects =
         SeenAround(around_objects_, objects, cloud, frame.stamp, scene_.params, *pool_);
-    report.objects_reidentified =
-        JoinSeenAgain(objects, dropped_lately, frame.stamp, around_objects, frame.T_W_S.translation,
-                      scene_.params, *pool_);
+    report.objects_reidentified = JoinSeenAgain(objects, dropped_lately, cloud, frame.stamp,
+                                                around_objects, scene_.params, *pool_);
     std::erase_if(around_objects,
                   [&](const auto& entry) { return !objects.contains(entry.first); });
   }

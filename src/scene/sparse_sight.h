@@ -1,16 +1,21 @@
 // What the beams of a sparse sensor leave out of an object.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "clearway/scene/moving_object.h"
+#include "scene/labelled_cloud.h"
 
 namespace clearway {
 
+// Whether beams are more than 0.6 degrees apart in most of what lies between the lowest and the
+// highest one that comes through the box about the object's voxels at that stamp, by the rays of
+// that stamp's cloud, from their own origins, one degree of azimuth after the other. z of O must
+// point up. What hides a part of the object makes no difference. Where no two beams come through
+// above each other nobody knows: then they do not count as wide apart.
+bool IsSeenSparsely(const MovingObject& object, const LabelledCloud& cloud, Time stamp,
+                    const SceneParams& params);
+
 // Of an object's heights (layers of voxels across z of O, from the lowest that was hit to the
-// highest), the share that was not hit yet, if it is as with beams that are wide apart: seen from
-// the sensor (in W), the layers that were hit are more than half a degree from one to the next. 0
-// with denser beams, for far objects as well.
-double ShareMissedBetweenBeams(const MovingObject& object, const Eigen::Vector3d& sensor_W);
+// highest, in all scans so far), the share that was not hit.
+double ShareOfHeightsMissed(const MovingObject& object);
 
 }  // namespace clearway

@@ -102,7 +102,8 @@ TEST_F(OtherShape, IsToldByDoubtsThatAddUp) {
   EXPECT_FALSE(Same(1, 2));
 }
 
-// What is between beams that are wide apart may be another's: so nobody is known by them.
+// What is between beams that are wide apart may be another's: so nobody is known by them, wherever
+// the frame is that the source tells their rays in.
 TEST_F(OtherShape, IsNotToldByFewBeams) {
   struct Case {
     RoadUserShape lost, young;
@@ -113,11 +114,22 @@ TEST_F(OtherShape, IsNotToldByFewBeams) {
   for (const auto& [lost, young, beams_apart_deg, is_known] :
        {Case{raised, kPedestrian, 0.4, false}, Case{raised, kPedestrian, 3, false},
         Case{kPedestrian, kPedestrian, 0.4, true}, Case{kPedestrian, kPedestrian, 3, false}}) {
-    BeginAnew();
-    beams_apart_deg_ = beams_apart_deg;
-    LoseAndSee(lost, young);
-    EXPECT_EQ(Same(1, 2), is_known) << lost.boxes_B[0].max << beams_apart_deg;
+    for (const double origins_off_m : {0, 30}) {
+      BeginAnew();
+      beams_apart_deg_ = beams_apart_deg;
+      origins_off_m_ = origins_off_m;
+      LoseAndSee(lost, young);
+      EXPECT_EQ(Same(1, 2), is_known)
+          << lost.boxes_B[0].max << beams_apart_deg << ' ' << origins_off_m;
+    }
   }
+}
+
+TEST_F(OtherShape, IsToldByManyBeamsThoughARailHidesSomeHeights) {
+  See(1, kPedestrian, 0, 20);
+  rail_m_ = 0;
+  See(2, kPedestrian, 30, 50);
+  EXPECT_TRUE(Same(1, 2));
 }
 
 }  // namespace

@@ -89,8 +89,12 @@ class SeenThrough : public testing::Test {
   std::optional<double> background_s_;
   // A wall before it, from so far ahead of its middle on.
   std::optional<double> wall_from_m_;
-  // Of the object, only what is hit by beams that are so far apart.
+  // All of it, object and house, is hit by beams that are so far apart.
   std::optional<double> beams_apart_deg_;
+  // A rail before the object hides what is up to 0.2 m above and below that height.
+  std::optional<double> rail_m_;
+  // The source tells rays in a frame whose origin is so far from where they begin.
+  std::optional<double> origins_off_m_;
   // Of the object, the faces that are not hit, by their normals.
   std::vector<Eigen::Vector3d> unseen_faces_;
   // So far ahead of where it would have come.
@@ -112,12 +116,13 @@ class SeenThrough : public testing::Test {
           return normal.dot(p) > box_B.Size().dot(normal.cwiseAbs()) / 2 - 1e-6;
         };
         return (wall_from_m_ && (center_B + p).x() > *wall_from_m_) ||
-               IsBetweenBeams(T_W_B * (center_B + p)) || std::ranges::any_of(unseen_faces_, is_of);
+               IsHidden(T_W_B * (center_B + p)) || std::ranges::any_of(unseen_faces_, is_of);
       });
       testing_support::AddObject(frame, id, T_W_B * Pose{.translation = center_B}, surface);
     }
   }
-  bool IsBetweenBeams(const Eigen::Vector3d& p_W) const {
+  bool IsHidden(const Eigen::Vector3d& p_W) const {
+    if (rail_m_ && std::abs(p_W.z() - *rail_m_) < 0.2) return true;
     if (!beams_apart_deg_) return false;
     constexpr double kBeam_deg = 0.25;  // to either side
     const double up_deg = std::atan2(p_W.z(), p_W.head<2>().norm()) * 180 / std::numbers::pi;
@@ -128,8 +133,10 @@ class SeenThrough : public testing::Test {
     for (double x = -8; x < 8; x += 0.1) {
       for (double z = -2; z < 2; z += 0.1) {
         const Eigen::Vector3d p_W(x, kHouseM, z);
-        const Eigen::Vector3d at_wall_W = p_W * kWallM / kHouseM;
-        const double ahead_m = (p_W * kLaneM / kHouseM - T_W_B.translation).x();
+        const Eigen::Vector3d at_wall_W = p_W * kWallM / kHouseM,
+                              at_lane_W = p_W * kLaneM / kHouseM;
+        if (IsHidden(at_lane_W)) continue;
+        const double ahead_m = (at_lane_W - T_W_B.translation).x();
         if (wall_from_m_ && ahead_m > *wall_from_m_) {
           testing_support::AddPoint(frame, kStaticLabel, at_wall_W);
         } else if (!Hides(shape, T_W_B, p_W)) {
@@ -147,7 +154,13 @@ class SeenThrough : public testing::Test {
     });
   }
 
-  void Apply(const Frame& frame) {
+  void Apply(Frame frame) {
+    if (origins_off_m_) {
+      const Eigen::Vector3d off_m(0, *origins_off_m_, 0);
+      frame.T_W_S.translation -= off_m;
+      for (Eigen::Vector3f& p_S : frame.points_S) p_S += off_m.cast<float>();
+      frame.origins_S.assign(frame.points_S.size(), off_m.cast<float>());
+    }
     const auto report = dut_->Apply(frame);
     if (!report.ok() && refused_.ok()) refused_ = report.status();
   }
