@@ -9,8 +9,8 @@ namespace clearway {
 // Whether beams are more than 0.6 degrees apart in most of what lies between the lowest and the
 // highest one that comes through the box about the object's voxels at that stamp, by the rays of
 // that stamp's cloud, from their own origins, one degree of azimuth after the other. z of O must
-// point up. What hides a part of the object makes no difference. Where no two beams come through
-// above each other nobody knows: then they do not count as wide apart.
+// point up. What hides less than half of the object's height makes no difference. Where no two
+// beams come through above each other nobody knows: then they do not count as wide apart.
 bool IsSeenSparsely(const MovingObject& object, const LabelledCloud& cloud, Time stamp,
                     const SceneParams& params);
 
