@@ -86,6 +86,7 @@ AT_MOST = {
     "reidentified_wrong_drive": 0,
     "reidentified_wrong_queues": 0,
     "reidentified_wrong_swaps": 0,
+    "reidentified_wrong_far_swaps": 0,
 }
 # So many times another number of the same run.
 AT_MOST_TIMES = {

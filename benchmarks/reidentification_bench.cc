@@ -1,8 +1,8 @@
 // How many of the objects that are lost out of sight and come back under new ids are known again,
 // and whether one is ever taken for another: in twenty simulated worlds, exact and with the errors
 // of the paper's Table I; in twenty more, of people in file who look alike; in sixty where one of
-// another shape comes out in its place; and on the real drive, where objects are hidden for a while
-// at random.
+// another shape comes out in its place, near and far off; and on the real drive, where objects are
+// hidden for a while at random.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -139,6 +139,7 @@ void Register(const Effort& effort) {
   add("_table1", {.count = count, .noise = SlamNoise::TableOne()});
   add("_queues", {.scenario = "queues", .count = count});
   add("_swaps", {.scenario = "swaps", .count = 3 * count});
+  add("_far_swaps", {.scenario = "far_swaps", .count = 3 * count});
   const auto path = DataPath("kitti0000_fov");
   if (!path) return;  // it has said so
   Add("reidentification_drive", once, [folder = *path, count](auto& state) {

@@ -83,7 +83,8 @@ void AddSimulationFlags(CLI::App* command, SourceFlags* flags) {
   command
       ->add_option("--seed", flags->seed,
                    "Seed of all noise, and of the worlds of sim:occlusions,\n"
-                   "sim:queues and sim:swaps: other ones for each seed")
+                   "sim:queues, sim:swaps and sim:far_swaps: other ones for\n"
+                   "each seed")
       ->check(NotNegative())
       ->capture_default_str()
       ->group(group);

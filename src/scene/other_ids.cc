@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,15 +11,12 @@
 #include "scene/mutual_fit.h"
 #include "scene/other_shape.h"
 #include "scene/reidentification.h"
+#include "scene/rivals.h"
 #include "scene/same_object.h"
 #include "scene/sparse_sight.h"
 
 namespace clearway {
 namespace {
-
-// So long is waited before maps are joined, unless the new one goes out of sight before: of a first
-// glimpse (a flank without its ends) nobody knows where exactly it fits.
-constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
 
 // Those of parts and of what they are parts of.
 std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {
@@ -27,12 +25,6 @@ std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {
     if (object->part_of != kStaticLabel) ids.insert({id, object->part_of});
   }
   return ids;
-}
-
-bool IsToBeJoined(const MovingObject& object, Time stamp) {
-  if (object.given() || !IsYoung(object, stamp)) return false;
-  const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
-  return glimpsed == (stamp - object.last_seen > kOutOfSight);
 }
 
 std::vector<ObjectId> IdsOf(const MovingObject& object) {
@@ -72,47 +64,6 @@ std::vector<Match> FindMatches(const ObjectMap& objects, Time stamp, const Scene
   return matches;
 }
 
-// Whether the other was seen while the lost one was out of sight before, between two sights of it
-// that were joined since, and where that one must have been then: no two are in one place.
-bool IsSightBetween(const MovingObject& other, const MovingObject& lost) {
-  const auto after = std::ranges::find_if(
-      lost.history, [&](const StampedPose& pose) { return pose.stamp >= other.first_seen; });
-  if (after == lost.history.begin() || after == lost.history.end()) return false;
-  if (after->stamp <= other.t_k()) return false;
-  const Eigen::Vector3d center_W = other.history.back().T_W_O * other.observed_box_O.Center();
-  const Pose T_W_L = PredictPose(lost, other.t_k(), Duration::max()).T_W_O;
-  return lost.observed_box_O.Contains(Inverse(T_W_L) * center_W);
-}
-
-// Whether an object that may be the young one as well is likely to be the lost one, too: where it
-// was to be then, another one cannot have been; or, as the young one, it is much farther off.
-bool IsLostOne(const Match& match, double as_young_m, double as_lost_m, const ObjectMap& objects,
-               const SceneParams& params) {
-  constexpr double kNearlyAsWell = 2;
-  const MovingObject& lost = *objects.at(match.lost);
-  const double beside_m = ToleranceOfPlace_m(lost, 0, 0);
-  const double match_m = DistanceIfSame_m(lost, *objects.at(match.young), params).value_or(0);
-  return as_lost_m <= beside_m || as_young_m > kNearlyAsWell * match_m + beside_m;
-}
-
-// Whether the young one may be another object that was lost, or the lost one another that was seen
-// since: however long that one is known by now.
-bool IsRival(const Match& match, const MovingObject& other, const ObjectMap& objects, Time stamp,
-             const SceneParams& params) {
-  const MovingObject& lost = *objects.at(match.lost);
-  const MovingObject& young = *objects.at(match.young);
-  const auto since_m = DistanceIfSame_m(lost, other, params);
-  if (const auto as_young_m = DistanceIfSame_m(other, young, params)) {
-    if (IsSightBetween(other, lost)) return false;
-    const auto as_lost_m = since_m ? since_m : DistanceIfSame_m(other, lost, params);
-    return !as_lost_m || !IsLostOne(match, *as_young_m, *as_lost_m, objects, params);
-  }
-  if (since_m) return true;
-  // What is to be joined now has matches of its own.
-  return WasLostBefore(lost, other) && !IsToBeJoined(other, stamp) &&
-         SeenAgain(lost, other, params).has_value();
-}
-
 bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectMap& objects,
             const SceneObjects& dropped_lately, Time stamp, const SceneParams& params) {
   const bool alone = std::ranges::count_if(matches, [&](const Match& other) {
@@ -122,12 +73,12 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
   const bool lost_is_matched =
       std::ranges::any_of(matches, [&](const Match& other) { return other.young == match.lost; });
   if (!alone || lost_is_matched) return false;
+  const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
   const auto is_rival = [&](const MovingObject& other) {
-    return IsRival(match, other, objects, stamp, params);
+    return IsRival(other, lost, young, stamp, params);
   };
-  const Time young_since = objects.at(match.young)->first_seen;
   const auto was_there = [&](const MovingObject& dropped) {
-    return young_since - dropped.last_seen <= params.object_lifetime;
+    return young.first_seen - dropped.last_seen <= params.object_lifetime;
   };
   return std::ranges::none_of(dropped_lately,
                               [&](const auto& d) { return was_there(*d) && is_rival(*d); }) &&
@@ -137,11 +88,11 @@ bool IsSure(const Match& match, const std::vector<Match>& matches, const ObjectM
          });
 }
 
-// Whether they are two, by what was seen around either and by how far one would have been lifted
-// onto the other: above 1 they are. Each doubt is told in parts of what is enough alone; they add
-// up as errors do that have nothing to do with each other. What is known of the lost one is of many
-// views, blurred by the errors of their poses: of it rays may pass more than of the new one, seen
-// from one side.
+// How much there is to doubt that they are one, by what was seen around either and by how far one
+// would have been lifted onto the other. Each doubt is told in parts of what is enough alone; they
+// add up as errors do that have nothing to do with each other. What is known of the lost one is of
+// many views, blurred by the errors of their poses: of it rays may pass more than of the new one,
+// seen from one side.
 double DoubtOf(const MovingObject& lost, const MovingObject& young, const Pose& T_Y_L,
                const Surroundings& around, const SceneParams& params) {
   constexpr double kEnoughOfLost = 0.1, kEnoughOfYoung = 0.025;
@@ -152,19 +103,21 @@ double DoubtOf(const MovingObject& lost, const MovingObject& young, const Pose& 
       .norm();
 }
 
-// The same where beams are wide apart: the few there are tell half of what there is to doubt, and
-// what is between them may be another's.
-double DoubtIfSparse(double doubt, const MovingObject& young) {
-  constexpr double kToldByFew = 0.5, kEnoughOfHeights = 0.15;
-  return std::hypot(doubt / kToldByFew, ShareOfHeightsMissed(young) / kEnoughOfHeights);
-}
-
+// Whether there is too much of it. What is between beams may be another's: so heights of the new
+// one that no beam has met are a doubt, too; and where beams are far apart, in voxels, the few
+// there are tell a part alone of what there is to doubt, of a sensor with few of them half.
 bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& cloud, Time stamp,
             const Surroundings& around, const SceneParams& params) {
+  constexpr double kEnoughOfHeights = 0.3, kFarApart_voxels = 1.5;
+  constexpr double kFew_rad = 0.6 * std::numbers::pi / 180, kOfFew = 2;
   const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
   const double doubt = DoubtOf(lost, young, match.T_Y_L, around, params);
   if (doubt > 1) return true;
-  return IsSeenSparsely(young, cloud, stamp, params) && DoubtIfSparse(doubt, young) > 1;
+  const BeamsApart apart = BeamsApartAt(young, cloud, stamp, params);
+  const double of_few = apart.rad > kFew_rad ? kOfFew : 1;
+  const double of_far = apart.m / (kFarApart_voxels * params.object_resolution_m);
+  return std::hypot(std::max(of_few, of_far) * doubt,
+                    of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) > 1;
 }
 
 }  // namespace

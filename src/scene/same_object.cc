@@ -72,18 +72,40 @@ double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
   return (p - a - share * along).norm();
 }
 
+// How long `lost` was out of sight before `seen` was seen, how that one went at first, and how fast
+// the faster of both goes.
+struct Absence {
+  Absence(const MovingObject& lost, const MovingObject& seen)
+      : unseen_s(ToSeconds(FirstPose(seen).stamp - lost.t_k())),
+        seen_mps(VelocityAtFirst_mps(seen)),
+        speed_mps(std::max(lost.SpeedMps(), seen_mps ? seen_mps->norm() : 0.0)) {}
+
+  double unseen_s;
+  std::optional<Eigen::Vector3d> seen_mps;
+  double speed_mps;
+};
+
 // From where it is predicted to where it would be had it gone as `seen` does.
 struct Places {
   Eigen::Vector3d predicted_W, gone_otherwise_W;
 };
 
-Places PlacesOf(const MovingObject& lost, const Pose& T_W_L,
-                const std::optional<Eigen::Vector3d>& seen_mps, double unseen_s) {
+Places PlacesOf(const MovingObject& lost, const Pose& T_W_L, const Absence& absence) {
   const Eigen::Vector3d center_O = lost.observed_box_O.Center();
   const Eigen::Vector3d predicted_W = T_W_L * center_O;
-  if (!seen_mps) return {predicted_W, predicted_W};
-  const Eigen::Vector3d gone_W = lost.history.back().T_W_O * center_O + unseen_s * *seen_mps;
+  if (!absence.seen_mps) return {predicted_W, predicted_W};
+  const Eigen::Vector3d gone_W =
+      lost.history.back().T_W_O * center_O + absence.unseen_s * *absence.seen_mps;
   return {lost.velocity_O ? predicted_W : gone_W, gone_W};
+}
+
+// How far `seen` may be from where `lost` was to be, if it is that one.
+double MayBeOff_m(const MovingObject& lost, const MovingObject& seen, const Absence& absence,
+                  const SceneParams& params) {
+  // Of what was seen in part, the centre is another.
+  const double center_m = std::abs(SeenSize_m(lost).norm() - SeenSize_m(seen).norm()) / 2;
+  const double told_m = params.object_pose_error_m * std::max(1.0, absence.unseen_s);
+  return ToleranceOfPlace_m(lost, absence.speed_mps, absence.unseen_s) + center_m + told_m;
 }
 
 }  // namespace
@@ -125,22 +147,33 @@ std::optional<double> DistanceIfSame_m(const MovingObject& lost, const MovingObj
                                        const SceneParams& params) {
   if (!WasLostBefore(lost, seen) || !AreAsLarge(lost, seen)) return std::nullopt;
   const StampedPose& first = FirstPose(seen);
-  const double unseen_s = ToSeconds(first.stamp - lost.t_k());
+  const Absence absence(lost, seen);
   const Pose T_W_L = PredictPose(lost, first.stamp, Duration::max()).T_W_O;
-  const auto lost_mps = VelocityAt_mps(lost, T_W_L), seen_mps = VelocityAtFirst_mps(seen);
-  if (lost_mps && seen_mps && !MayComeToGo(*lost_mps, *seen_mps, unseen_s)) return std::nullopt;
+  const auto lost_mps = VelocityAt_mps(lost, T_W_L);
+  if (lost_mps && absence.seen_mps &&
+      !MayComeToGo(*lost_mps, *absence.seen_mps, absence.unseen_s)) {
+    return std::nullopt;
+  }
 
-  const double speed_mps = std::max(lost.SpeedMps(), seen_mps ? seen_mps->norm() : 0.0);
-  // Of what was seen in part, the centre is another.
-  const double center_m = std::abs(SeenSize_m(lost).norm() - SeenSize_m(seen).norm()) / 2;
-  const double told_m = params.object_pose_error_m * std::max(1.0, unseen_s);
-  const Places places = PlacesOf(lost, T_W_L, seen_mps, unseen_s);
+  const Places places = PlacesOf(lost, T_W_L, absence);
   const Eigen::Vector3d there_W = first.T_W_O * seen.observed_box_O.Center();
   if (DistanceToSegment(there_W, places.predicted_W, places.gone_otherwise_W) >
-      ToleranceOfPlace_m(lost, speed_mps, unseen_s) + center_m + told_m) {
+      MayBeOff_m(lost, seen, absence, params)) {
     return std::nullopt;
   }
   return (there_W - places.predicted_W).norm();
+}
+
+std::optional<double> LogLikelihoodIfSame(const MovingObject& lost, const MovingObject& seen,
+                                          const SceneParams& params) {
+  const auto off_m = DistanceIfSame_m(lost, seen, params);
+  if (!off_m) return std::nullopt;
+  const Absence absence(lost, seen);
+  double sigma_m = MayBeOff_m(lost, seen, absence, params);
+  if (!VelocityNow_mps(lost)) sigma_m += absence.speed_mps * absence.unseen_s;
+  sigma_m = std::max(sigma_m, params.object_resolution_m);
+  const double off = *off_m / sigma_m;
+  return -off * off / 2 - 2 * std::log(sigma_m);
 }
 
 }  // namespace clearway

@@ -42,4 +42,11 @@ bool WasLostBefore(const MovingObject& lost, const MovingObject& seen);
 std::optional<double> DistanceIfSame_m(const MovingObject& lost, const MovingObject& seen,
                                        const SceneParams& params);
 
+// How likely `seen` was to be where it was first seen if it is `lost`, to be compared with what it
+// is as another: the logarithm of a density, of a normal distribution in the plane about where
+// `lost` was to be, as wide as it may be off for DistanceIfSame_m (and all of its way more where
+// nobody knows how it goes), a voxel at least. None if it cannot be that one.
+std::optional<double> LogLikelihoodIfSame(const MovingObject& lost, const MovingObject& seen,
+                                          const SceneParams& params);
+
 }  // namespace clearway

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -15,7 +16,6 @@ namespace clearway {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kWideApart_rad = 0.6 * kDegree_rad;
 
 struct Direction {
   int azimuth_deg;
@@ -36,24 +36,39 @@ std::vector<Direction> DirectionsOf(const ClippedRays& rays) {
   return directions;
 }
 
-bool AreWideApart(std::vector<Direction> directions) {
+// Between neighbours of one degree of azimuth.
+std::vector<double> ApartUpwards_rad(std::vector<Direction> directions) {
   std::ranges::sort(directions);
-  double all_rad = 0, wide_rad = 0;
+  std::vector<double> apart_rad;
   for (std::size_t i = 1; i < directions.size(); ++i) {
     if (directions[i].azimuth_deg != directions[i - 1].azimuth_deg) continue;
-    const double apart_rad = directions[i].up_rad - directions[i - 1].up_rad;
-    all_rad += apart_rad;
-    if (apart_rad > kWideApart_rad) wide_rad += apart_rad;
+    apart_rad.push_back(directions[i].up_rad - directions[i - 1].up_rad);
   }
-  return 2 * wide_rad > all_rad;
+  return apart_rad;
+}
+
+// That of the lengths up to which, from the shortest on, they are half of them all; 0 if none are.
+double HalfOfAll(std::vector<double> lengths) {
+  std::ranges::sort(lengths);
+  const double all = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  double sum = 0;
+  for (const double length : lengths) {
+    sum += length;
+    if (2 * sum >= all) return length;
+  }
+  return 0;
 }
 
 }  // namespace
 
-bool IsSeenSparsely(const MovingObject& object, const LabelledCloud& cloud, Time stamp,
-                    const SceneParams& params) {
+BeamsApart BeamsApartAt(const MovingObject& object, const LabelledCloud& cloud, Time stamp,
+                        const SceneParams& params) {
+  if (cloud.origins_W.empty()) return {};
   const Pose T_W_O = PredictPose(object, stamp, params.horizon).T_W_O;
-  return AreWideApart(DirectionsOf(RaysWithin(object.observed_box_O, T_W_O, cloud, params)));
+  const ClippedRays rays = RaysWithin(object.observed_box_O, T_W_O, cloud, params);
+  const double rad = HalfOfAll(ApartUpwards_rad(DirectionsOf(rays)));
+  const Eigen::Vector3d sensor_W = cloud.origins_W.front().cast<double>();
+  return {rad, rad * (T_W_O * object.observed_box_O.Center() - sensor_W).norm()};
 }
 
 double ShareOfHeightsMissed(const MovingObject& object) {

@@ -19,6 +19,7 @@ SimulationSpec SmallSpec();
 SimulationSpec OcclusionsSpec(std::uint64_t seed);
 SimulationSpec QueuesSpec(std::uint64_t seed);
 SimulationSpec SwapsSpec(std::uint64_t seed);
+SimulationSpec FarSwapsSpec(std::uint64_t seed);
 SimulationSpec ArticulatedSpec();
 
 // At x, y, z, turned to the left about z.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -83,10 +84,11 @@ constexpr std::array<std::pair<Kind, Kind>, 10> kPairs = {{{kCar, kBus},
                                                            {kTrolley, kCrate}}};
 
 // Before the LiDAR one goes behind a wall and stays there, and another one comes out when and where
-// it would have; behind the LiDAR the same one comes out.
+// it would have; behind the LiDAR the same one comes out. All but the walls are so much farther
+// off.
 class Swaps {
  public:
-  explicit Swaps(std::uint64_t seed) : random_(seed, kStream) {
+  Swaps(std::uint64_t seed, double farther_m) : random_(seed, kStream), farther_m_(farther_m) {
     const std::uint64_t way = (seed + 2 * kPairs.size() - 1) % (2 * kPairs.size());
     std::tie(lost_, young_) = kPairs[way / 2];
     if (way % 2 == 1) std::swap(lost_, young_);
@@ -110,7 +112,7 @@ class Swaps {
   void AddSide(double yaw_rad, const Kind& first, const Kind& second) {
     const Pose T_W_V = PlacedAt(0, 0, 0, yaw_rad);
     const double wide_m = std::max(SizeOf(first).y(), SizeOf(second).y());
-    const double y_m = (wide_m > 1.5 ? 8 : 6.5) + Between(0, 3);
+    const double y_m = (wide_m > 1.5 ? 8 : 6.5) + farther_m_ + Between(0, 3);
     Stand(T_W_V, StaticBox("houses", PlacedAt(0, y_m + 8, 3.9), {110, 6, 8}));
     // Along the way: both are hidden whole side by side, half a metre apart.
     const double hidden_m = SizeOf(first).x() + SizeOf(second).x() + 1;
@@ -154,17 +156,22 @@ class Swaps {
   }
 
   Random random_;
+  double farther_m_;
   Kind lost_, young_;
   World world_;
   ObjectId next_id_ = 1;
 };
 
-}  // namespace
-
-SimulationSpec SwapsSpec(std::uint64_t seed) {
-  SimulationSpec spec = BehindWalls("swaps", Swaps(seed).Make());
+SimulationSpec Spec(std::string name, std::uint64_t seed, double farther_m) {
+  SimulationSpec spec = BehindWalls(std::move(name), Swaps(seed, farther_m).Make());
   spec.frame_count = 110;
   return spec;
 }
+
+}  // namespace
+
+SimulationSpec SwapsSpec(std::uint64_t seed) { return Spec("swaps", seed, 0); }
+
+SimulationSpec FarSwapsSpec(std::uint64_t seed) { return Spec("far_swaps", seed, 20); }
 
 }  // namespace clearway

@@ -23,13 +23,14 @@ SimulationSpec Always(std::uint64_t) {
   return kSpec();
 }
 
-constexpr std::array<Scenario, 8> kScenarios = {{{"crossing", Always<CrossingSpec>},
+constexpr std::array<Scenario, 9> kScenarios = {{{"crossing", Always<CrossingSpec>},
                                                  {"street", Always<StreetSpec>},
                                                  {"lab", Always<LabSpec>},
                                                  {"small", Always<SmallSpec>},
                                                  {"occlusions", OcclusionsSpec},
                                                  {"queues", QueuesSpec},
                                                  {"swaps", SwapsSpec},
+                                                 {"far_swaps", FarSwapsSpec},
                                                  {"articulated", Always<ArticulatedSpec>}}};
 
 absl::Status Refused(const char* field, double value, const char* limit) {

@@ -125,6 +125,22 @@ TEST_F(OtherShape, IsNotToldByFewBeams) {
   }
 }
 
+// The beams of one sensor are 0.05 m apart nearby, and 0.26 m far off: nothing is told of what lies
+// between, nor of whoever else might.
+TEST_F(OtherShape, IsNotToldWhereBeamsAreVoxelsApart) {
+  beams_reach_deg_ = 0.1;
+  const auto is_known = [&](double farther_x, double beams_apart_deg) {
+    BeginAnew();
+    farther_x_ = farther_x;
+    beams_apart_deg_ = beams_apart_deg;
+    LoseAndSee(kPedestrian, kPedestrian);
+    return Same(1, 2);
+  };
+  EXPECT_TRUE(is_known(1, 0.5));
+  EXPECT_FALSE(is_known(5, 0.5));
+  EXPECT_TRUE(is_known(5, 0.2));
+}
+
 TEST_F(OtherShape, IsToldByManyBeamsThoughARailHidesSomeHeights) {
   See(1, kPedestrian, 0, 20);
   rail_m_ = 0;

@@ -111,6 +111,20 @@ TEST_F(Rivals, AreThereThoughTheirWayIsNotKnown) {
   EXPECT_EQ(joined_, 0u);
 }
 
+// Who was seen once, 6 s ago, may be anywhere, while this one is just where it was to be.
+TEST_F(Rivals, AreNotThereByAStrangeChance) {
+  See({{0.75, 1.5, {{1, 0, 1}}}, {0, 1.5, {{2, 0, 55}, {12, 61, 80}}}}, 80);
+  EXPECT_TRUE(Same(2, 12));
+}
+
+// 1 might have gone on at the speed of 12, but would be 3 m from where it was to be, or 4 m.
+TEST_F(Rivals, AreThereUnlessTheyAreFarFromWhereTheyWereToBe) {
+  See({{0.7, 1, {{1, 0, 10}}}, {0, 1.5, {{2, 0, 25}, {12, 74, 90}}}}, 90);
+  EXPECT_FALSE(Same(2, 12));
+  See({{-0.3, 1, {{1, 0, 10}}}, {0, 1.5, {{2, 0, 25}, {12, 74, 90}}}}, 90);
+  EXPECT_TRUE(Same(2, 12));
+}
+
 // Both go faster where nobody sees them: the follower is where the leader was to be.
 TEST_F(Rivals, AreThereThoughTheyWentFaster) {
   const Walk leader{1.8, 3, {{1, 0, 40}, {11, 64, 80}}, 0.8};

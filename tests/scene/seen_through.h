@@ -91,6 +91,9 @@ class SeenThrough : public testing::Test {
   std::optional<double> wall_from_m_;
   // All of it, object and house, is hit by beams that are so far apart.
   std::optional<double> beams_apart_deg_;
+  double beams_reach_deg_ = 0.25;  // to either side
+  // Everything is so many times as far away.
+  double farther_x_ = 1;
   // A rail before the object hides what is up to 0.2 m above and below that height.
   std::optional<double> rail_m_;
   // The source tells rays in a frame whose origin is so far from where they begin.
@@ -103,7 +106,9 @@ class SeenThrough : public testing::Test {
  private:
   static constexpr double kLaneM = 6, kWallM = 4, kHouseM = 9;
 
-  Pose PoseAt(int k) const { return Pose::Translation(0.15 * k - 3 + ahead_m_, kLaneM, 0); }
+  Pose PoseAt(int k) const {
+    return Pose::Translation(0.15 * k - 3 + ahead_m_, farther_x_ * kLaneM, 0);
+  }
 
   // Of its surface, all that is not behind the wall.
   void AddSight(ObjectId id, const RoadUserShape& shape, const Pose& T_W_B, Frame& frame) const {
@@ -124,15 +129,14 @@ class SeenThrough : public testing::Test {
   bool IsHidden(const Eigen::Vector3d& p_W) const {
     if (rail_m_ && std::abs(p_W.z() - *rail_m_) < 0.2) return true;
     if (!beams_apart_deg_) return false;
-    constexpr double kBeam_deg = 0.25;  // to either side
     const double up_deg = std::atan2(p_W.z(), p_W.head<2>().norm()) * 180 / std::numbers::pi;
-    return std::abs(std::remainder(up_deg, *beams_apart_deg_)) > kBeam_deg;
+    return std::abs(std::remainder(up_deg, *beams_apart_deg_)) > beams_reach_deg_;
   }
   // Of the house, what the sensor sees beside the object and the wall; and that wall.
   void AddBehind(const RoadUserShape& shape, const Pose& T_W_B, Frame& frame) const {
     for (double x = -8; x < 8; x += 0.1) {
       for (double z = -2; z < 2; z += 0.1) {
-        const Eigen::Vector3d p_W(x, kHouseM, z);
+        const Eigen::Vector3d p_W = farther_x_ * Eigen::Vector3d(x, kHouseM, z);
         const Eigen::Vector3d at_wall_W = p_W * kWallM / kHouseM,
                               at_lane_W = p_W * kLaneM / kHouseM;
         if (IsHidden(at_lane_W)) continue;

@@ -77,7 +77,7 @@ std::map<ObjectId, std::size_t> MostPoints(const Simulation& simulation, std::si
 
 TEST(ScenariosTest, EveryNameMakesFrames) {
   EXPECT_THAT(ScenarioNames(), ElementsAre("crossing", "street", "lab", "small", "occlusions",
-                                           "queues", "swaps", "articulated"));
+                                           "queues", "swaps", "far_swaps", "articulated"));
   for (const std::string& name : ScenarioNames()) {
     const auto dut = MakeScenario(name);
     ASSERT_TRUE(dut.ok());
@@ -220,7 +220,8 @@ TEST(LabTest, TheCameraStaysInFreeAir) {
 }
 
 class HiddenTest : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Worlds, HiddenTest, testing::Values("occlusions", "queues", "swaps"),
+INSTANTIATE_TEST_SUITE_P(Worlds, HiddenTest,
+                         testing::Values("occlusions", "queues", "swaps", "far_swaps"),
                          [](const auto& world) { return std::string(world.param); });
 
 TEST_P(HiddenTest, NobodyRunsIntoAnything) {

@@ -13,7 +13,7 @@ namespace clearway {
 
 // Choices that every scenario offers. A plain value; default: exact, at full size.
 struct ScenarioOptions {
-  std::uint64_t seed = 1;  // of all noise, and of the worlds `occlusions`, `queues` and `swaps`
+  std::uint64_t seed = 1;  // of all noise, and of the worlds told below to depend on it
   SlamNoise noise = {};
   double range_noise_m = 0;
   ObjectReport report = ObjectReport::kMotions;
@@ -38,6 +38,7 @@ struct ScenarioOptions {
 // swaps: one goes behind a wall and another, of another shape, comes out where it would have; on
 //   the LiDAR's other side the same one does. 11 s at 10 Hz; ten pairs of vehicles, people and
 //   goods, both ways round, by the seed. 0.1 m voxels.
+// far_swaps: the same 20 m farther off, where beams are two voxels apart and more.
 // articulated: a truck whose trailer follows round a bend, cyclists who pedal, an excavator that
 //   swings its boom, each part an object of its own that is told to be a part; a LiDAR that stands,
 //   12 s at 10 Hz. 0.1 m voxels.
