@@ -15,7 +15,7 @@ namespace clearway {
 
 inline constexpr ObjectId kTractor = 1, kTrailer = 2;
 inline constexpr double kPeriod_s = 0.1, kSpeed_mps = 5, kTurn_radps = 0.5;
-inline const std::vector<Eigen::Vector3d> kBody = testing_support::BoxSurface({3, 2, 2}, 0.2);
+inline const std::vector<Eigen::Vector3d> kBody = testing_support::BoxSurface({3, 2, 2}, 0.1);
 
 inline Pose TurnedBy(double yaw_rad) { return Exp({{0, 0, yaw_rad}, Eigen::Vector3d::Zero()}); }
 inline Pose Swung(double pitch_rad) { return Exp({{0, pitch_rad, 0}, Eigen::Vector3d::Zero()}); }
