@@ -127,7 +127,7 @@ TEST_F(OtherShape, IsNotToldByFewBeams) {
 
 // The beams of one sensor are 0.05 m apart nearby, and 0.26 m far off: nothing is told of what lies
 // between, nor of whoever else might.
-TEST_F(OtherShape, IsNotToldWhereBeamsAreVoxelsApart) {
+TEST_F(OtherShape, IsNotToldWhereBeamsMissHeights) {
   beams_reach_deg_ = 0.1;
   const auto is_known = [&](double farther_x, double beams_apart_deg) {
     BeginAnew();
