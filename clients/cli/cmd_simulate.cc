@@ -1,8 +1,8 @@
 // clearway simulate: a simulated drive as a recording.
 #include <memory>
+#include <string>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "clearway/io/recording.h"
 #include "clearway/sim/scenarios.h"
 #include "cli/commands.h"
@@ -51,6 +51,20 @@ absl::StatusOr<Written> WriteAll(const FrameSource& source, RecordingWriter& wri
   return written;
 }
 
+// The scenarios' names, in lines that fit beside the argument's own name in `--help`.
+std::string NamesInLines() {
+  constexpr std::size_t kLine = 56;
+  std::string lines;
+  std::size_t line = 0;
+  for (const std::string& name : ScenarioNames()) {
+    const bool fits = line + name.size() < kLine;
+    if (line > 0) absl::StrAppend(&lines, fits ? "|" : "|\n");
+    line = (fits ? line + 1 : 0) + name.size();
+    absl::StrAppend(&lines, name);
+  }
+  return lines;
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto simulation = OpenSimulation(flags.scenario, flags.source);
   if (!simulation.ok()) return simulation.status();
@@ -90,7 +104,7 @@ void AddSimulate(Cli& cli) {
   auto flags = std::make_shared<Flags>();
   CLI::App* command = AddCommand(cli, "simulate", "Write a simulated drive as a recording",
                                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
-  command->add_option("scenario", flags->scenario, absl::StrJoin(ScenarioNames(), "|"))->required();
+  command->add_option("scenario", flags->scenario, NamesInLines())->required();
   command->add_option("-o,--out", flags->out, "The recording to write")->required();
   command->add_flag("--force", flags->force, "Replace a file that exists");
   command

@@ -103,6 +103,18 @@ double DoubtOf(const MovingObject& lost, const MovingObject& young, const Pose& 
       .norm();
 }
 
+// How much of it is too much. Where beams are more than a voxel apart each scan shows some more: so
+// of what is in view little may be doubted at first, and more when hardly anything new is to come.
+// Of what has gone out of sight no more will be seen.
+double MayBeDoubted(const MovingObject& young, const BeamsApart& apart, Time stamp,
+                    const SceneParams& params) {
+  constexpr double kAtFirst = 0.4, kAtLast = 0.9;
+  const bool is_in_view = stamp - young.last_seen <= kOutOfSight / 2;
+  if (!is_in_view || apart.m <= params.object_resolution_m) return 1;
+  const double looked_s = ToSeconds(stamp - young.first_seen - kFirstGlimpse);
+  return std::lerp(kAtFirst, kAtLast, looked_s / ToSeconds(kYoung - kFirstGlimpse));
+}
+
 // Whether there is too much of it. What is between beams may be another's: so heights of the new
 // one that no beam has met are a doubt, too; and where beams are far apart, in voxels, the few
 // there are tell a part alone of what there is to doubt, of a sensor with few of them half.
@@ -117,7 +129,8 @@ bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& c
   const double of_few = apart.rad > kFew_rad ? kOfFew : 1;
   const double of_far = apart.m / (kFarApart_voxels * params.object_resolution_m);
   return std::hypot(std::max(of_few, of_far) * doubt,
-                    of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) > 1;
+                    of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) >
+         MayBeDoubted(young, apart, stamp, params);
 }
 
 }  // namespace

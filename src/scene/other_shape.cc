@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 
 #include "clearway/map/voxel_neighbours.h"
@@ -53,31 +54,47 @@ class Sight {
   const VoxelMap& around_P_;
 };
 
-// By the axis of O, and by what keys of one plane across it share: how many of them there are.
-using Layers = std::array<std::map<std::int32_t, std::size_t>, 3>;
+// What voxels of the object share, in one plane across an axis of O.
+struct Layer {
+  std::size_t voxels = 0;
+  std::size_t passed = 0;  // by rays
+  std::size_t there = 0;   // where the other one is
+};
 
-void Count(VoxelKey key, Layers& layers) {
-  ++layers[0][key.x];
-  ++layers[1][key.y];
-  ++layers[2][key.z];
+// By the axis of O, and by the voxels' key along it.
+using Layers = std::array<std::map<std::int32_t, Layer>, 3>;
+
+void Count(VoxelKey key, std::size_t Layer::*what, Layers& layers) {
+  ++(layers[0][key.x].*what);
+  ++(layers[1][key.y].*what);
+  ++(layers[2][key.z].*what);
 }
 
-// One layer is off by rounding, and a few voxels are strays.
-constexpr std::size_t kFewestLayers = 2, kFewestVoxels = 6;
+constexpr std::size_t kFewestVoxels = 6;  // fewer are strays
 
-// Whether rays passed where half of the voxels would be of each of the object's outermost layers,
-// from that end on.
+bool IsPassed(const Layer& layer) {
+  return layer.passed >= kFewestVoxels && 2 * layer.passed >= layer.voxels;
+}
+
+// As one between two rows of beams is.
+bool IsUnseen(const Layer& layer) { return 10 * (layer.passed + layer.there) < layer.voxels; }
+
+// Whether rays passed the object's outermost layers, from that end on up to where the other one is.
+// One layer is off by rounding: it takes two that they passed, or one if three are missing and the
+// others were not seen.
 template <typename Iterator>
-bool IsEndPassed(Iterator layer, Iterator end, const std::map<std::int32_t, std::size_t>& passed) {
-  const auto is_passed = [&](const auto& known) {
-    const auto found = passed.find(known.first);
-    const std::size_t count = found == passed.end() ? 0 : found->second;
-    return count >= kFewestVoxels && 2 * count >= known.second;
-  };
-  while (layer != end && layer->second < kFewestVoxels) ++layer;
-  std::size_t layers = 0;
-  for (; layer != end && is_passed(*layer); ++layer) ++layers;
-  return layers >= kFewestLayers;
+bool IsEndPassed(Iterator layer, Iterator end) {
+  constexpr std::size_t kFewestPassed = 2;
+  constexpr int kFewestMissing = 3;
+  while (layer != end && layer->second.voxels < kFewestVoxels) ++layer;
+  if (layer == end) return false;
+  const std::int32_t outermost = layer->first;
+  std::size_t passed = 0;
+  for (; layer != end && (IsPassed(layer->second) || IsUnseen(layer->second)); ++layer) {
+    passed += IsPassed(layer->second);
+  }
+  if (passed >= kFewestPassed) return true;
+  return passed > 0 && layer != end && std::abs(layer->first - outermost) >= kFewestMissing;
 }
 
 }  // namespace
@@ -86,23 +103,23 @@ double ShareSeenThrough(const MovingObject& object, const MovingObject& other, c
                         const VoxelMap& around_P) {
   const Sight sight(object, other, T_P_O, around_P);
   std::size_t passed = 0, there = 0;
-  Layers of_object, free;
+  Layers layers;
   object.map_O.blocks().ForEach([&](BlockKey block_key, const VoxelBlock& block) {
     block.occupied.ForEach([&](int index) {
       const VoxelKey key = VoxelAt(block_key, index);
-      Count(key, of_object);
+      Count(key, &Layer::voxels, layers);
       if (sight.IsThere(key)) {
         ++there;
+        Count(key, &Layer::there, layers);
       } else if (sight.IsFree(key)) {
-        Count(key, free);
+        Count(key, &Layer::passed, layers);
         passed += sight.IsPassed(key);
       }
     });
   });
-  const bool end_is_passed = std::ranges::any_of(std::array{0, 1, 2}, [&](int axis) {
-    const auto &known = of_object[axis], &passed_of = free[axis];
-    return IsEndPassed(known.begin(), known.end(), passed_of) ||
-           IsEndPassed(known.rbegin(), known.rend(), passed_of);
+  const bool end_is_passed = std::ranges::any_of(layers, [](const auto& of_axis) {
+    return IsEndPassed(of_axis.begin(), of_axis.end()) ||
+           IsEndPassed(of_axis.rbegin(), of_axis.rend());
   });
   if (end_is_passed) return 1;
   return passed == 0 ? 0 : static_cast<double>(passed) / static_cast<double>(passed + there);

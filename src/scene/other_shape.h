@@ -11,7 +11,8 @@ namespace clearway {
 // around `other` (`around_P`, in P; see SeenAround). Voxels count as passed with all occupied ones
 // that touch them (an edge that rays graze is passed on one side alone) and with what lies further
 // in (a flat face that they graze is not passed). All, 1, if they passed an end of `object`: two
-// layers of voxels or more across an axis of O.
+// layers of voxels or more across an axis of O, or one of three or more of which the others lie
+// between beams.
 double ShareSeenThrough(const MovingObject& object, const MovingObject& other, const Pose& T_P_O,
                         const VoxelMap& around_P);
 

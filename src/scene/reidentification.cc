@@ -144,7 +144,6 @@ Eigen::Vector3d MovedBy_m(const MovingObject& lost, const MovingObject& young, c
 }  // namespace
 
 bool IsToBeJoined(const MovingObject& object, Time stamp) {
-  constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
   if (object.given() || !IsYoung(object, stamp)) return false;
   const bool glimpsed = object.last_seen - object.first_seen < kFirstGlimpse;
   return glimpsed == (stamp - object.last_seen > kOutOfSight);

@@ -19,9 +19,11 @@ inline bool IsYoung(const MovingObject& object, Time stamp) {
 // sensor, whatever other sensors see meanwhile.
 inline constexpr Duration kOutOfSight = std::chrono::milliseconds(250);
 
-// Whether it is time to join it to what it was before. Of a first glimpse, 0.6 s (a flank without
-// its ends), nobody knows where exactly it fits: so long is waited, unless it has gone out of
-// sight.
+// A flank without its ends: nobody knows where exactly it fits.
+inline constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
+
+// Whether it is time to join it to what it was before. For a first glimpse is waited, unless it has
+// gone out of sight.
 bool IsToBeJoined(const MovingObject& object, Time stamp);
 
 // So far beyond what was seen of an object before there is hardly anything of it.

@@ -260,6 +260,17 @@ TEST(Evaluate, WhatIsKnownAgain) {
   EXPECT_EQ(with["wrong"], 0);
 }
 
+// A pedestrian is lost and a child comes out in its place, where beams are two voxels apart: what
+// is doubted in most scans is not joined because the last one shows less to doubt.
+TEST(Evaluate, WhoeverElseComesOutFarOff) {
+  const auto identities =
+      nlohmann::json::parse(Clearway({"evaluate", "sim:far_swaps", "--seed", "60", "--forget",
+                                      "0.5", "--motion", "track", "--reidentify", "--json"})
+                                .out)["identities"];
+  EXPECT_EQ(identities["known_again"], 1);
+  EXPECT_EQ(identities["wrong"], 0);
+}
+
 TEST(Evaluate, OnlyWhatTellsTheTruth) {
   const TemporaryFolder folder;
   const std::string recording = folder / "drive.cwr";

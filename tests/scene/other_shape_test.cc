@@ -1,4 +1,6 @@
 // Nobody is known again as one that is clearly larger or smaller.
+#include "scene/other_shape.h"
+
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -146,6 +148,44 @@ TEST_F(OtherShape, IsToldByManyBeamsThoughARailHidesSomeHeights) {
   rail_m_ = 0;
   See(2, kPedestrian, 30, 50);
   EXPECT_TRUE(Same(1, 2));
+}
+
+// Voxels of a column of four by four, from the lowest of its layers to the highest.
+MovingObject Column(int lowest, int highest) {
+  ThreadPool pool(1);
+  ScanUpdate update;
+  for (int z = lowest; z <= highest; ++z) {
+    for (int x = 0; x < 4; ++x) {
+      for (int y = 0; y < 4; ++y) update.MarkHit({x, y, z});
+    }
+  }
+  VoxelMap map_O(0.1);
+  map_O.Update(update, pool);
+  return WithMap({}, std::move(map_O));
+}
+
+// The other one's top is layer 11, and what touches that may be a part of it.
+double ShareOfColumnSeenThrough(int highest, const std::vector<int>& passed_layers) {
+  ThreadPool pool(1);
+  ScanUpdate update;
+  for (const int z : passed_layers) {
+    for (int x = 0; x < 4; ++x) {
+      for (int y = 0; y < 4; ++y) update.MarkFree({x, y, z});
+    }
+  }
+  VoxelMap around_P(0.1);
+  around_P.Update(update, pool);
+  return ShareSeenThrough(Column(0, highest), Column(0, 11), {}, around_P);
+}
+
+TEST(ShareSeenThroughTest, IsAllOfWhatEndsBetweenRowsThatPassed) {
+  EXPECT_EQ(ShareOfColumnSeenThrough(16, {}), 0);
+  EXPECT_EQ(ShareOfColumnSeenThrough(16, {16}), 1);
+  EXPECT_EQ(ShareOfColumnSeenThrough(16, {14}), 1);
+  EXPECT_EQ(ShareOfColumnSeenThrough(15, {13}), 1);
+  EXPECT_EQ(ShareOfColumnSeenThrough(14, {13, 14}), 1);
+  EXPECT_LT(ShareOfColumnSeenThrough(14, {14}), 1);  // may be off by two
+  EXPECT_LT(ShareOfColumnSeenThrough(13, {13}), 1);
 }
 
 }  // namespace
