@@ -103,34 +103,23 @@ double DoubtOf(const MovingObject& lost, const MovingObject& young, const Pose& 
       .norm();
 }
 
-// How much of it is too much. Where beams are more than a voxel apart each scan shows some more: so
-// of what is in view little may be doubted at first, and more when hardly anything new is to come.
-// Of what has gone out of sight no more will be seen.
-double MayBeDoubted(const MovingObject& young, const BeamsApart& apart, Time stamp,
-                    const SceneParams& params) {
-  constexpr double kAtFirst = 0.4, kAtLast = 0.9;
-  const bool is_in_view = stamp - young.last_seen <= kOutOfSight / 2;
-  if (!is_in_view || apart.m <= params.object_resolution_m) return 1;
-  const double looked_s = ToSeconds(stamp - young.first_seen - kFirstGlimpse);
-  return std::lerp(kAtFirst, kAtLast, looked_s / ToSeconds(kYoung - kFirstGlimpse));
-}
-
-// Whether there is too much of it. What is between beams may be another's: so heights of the new
-// one that no beam has met are a doubt, too; and where beams are far apart, in voxels, the few
-// there are tell a part alone of what there is to doubt, of a sensor with few of them half.
+// Whether there is too much of it (MayBeDoubted). What is between beams may be another's: so
+// heights of the new one that no beam has met are a doubt, too; and where beams are far apart, in
+// voxels, the few there are tell a part alone of what there is to doubt, of a sensor with few of
+// them half.
 bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& cloud, Time stamp,
             const Surroundings& around, const SceneParams& params) {
   constexpr double kEnoughOfHeights = 0.3, kFarApart_voxels = 1.5;
   constexpr double kFew_rad = 0.6 * std::numbers::pi / 180, kOfFew = 2;
   const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
   const double doubt = DoubtOf(lost, young, match.T_Y_L, around, params);
-  if (doubt > 1) return true;
+  const double may_be = MayBeDoubted(young, stamp);
+  if (doubt > may_be) return true;
   const BeamsApart apart = BeamsApartAt(young, cloud, stamp, params);
   const double of_few = apart.rad > kFew_rad ? kOfFew : 1;
   const double of_far = apart.m / (kFarApart_voxels * params.object_resolution_m);
   return std::hypot(std::max(of_few, of_far) * doubt,
-                    of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) >
-         MayBeDoubted(young, apart, stamp, params);
+                    of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) > may_be;
 }
 
 }  // namespace

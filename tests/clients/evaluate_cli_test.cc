@@ -246,31 +246,6 @@ TEST(Evaluate, WithoutLabels) {
   EXPECT_THAT(text.out, Not(HasSubstr("not\nknown")));
 }
 
-TEST(Evaluate, WhatIsKnownAgain) {
-  const auto identities = [](std::vector<std::string> flags) {
-    flags.insert(flags.begin(), {"evaluate", "sim:occlusions", "--seed", "5", "--frames", "60",
-                                 "--forget", "0.5", "--motion", "track", "--json"});
-    return nlohmann::json::parse(Clearway(flags).out)["identities"];
-  };
-  const auto without = identities({}), with = identities({"--reidentify"});
-  EXPECT_GE(without["came_back"], 3);
-  EXPECT_EQ(without["known_again"], 0);
-  EXPECT_EQ(with["came_back"], without["came_back"]);
-  EXPECT_EQ(with["known_again"], with["came_back"]);
-  EXPECT_EQ(with["wrong"], 0);
-}
-
-// A pedestrian is lost and a child comes out in its place, where beams are two voxels apart: what
-// is doubted in most scans is not joined because the last one shows less to doubt.
-TEST(Evaluate, WhoeverElseComesOutFarOff) {
-  const auto identities =
-      nlohmann::json::parse(Clearway({"evaluate", "sim:far_swaps", "--seed", "60", "--forget",
-                                      "0.5", "--motion", "track", "--reidentify", "--json"})
-                                .out)["identities"];
-  EXPECT_EQ(identities["known_again"], 1);
-  EXPECT_EQ(identities["wrong"], 0);
-}
-
 TEST(Evaluate, OnlyWhatTellsTheTruth) {
   const TemporaryFolder folder;
   const std::string recording = folder / "drive.cwr";

@@ -189,5 +189,17 @@ TEST_F(Reidentification, JoinedItHasBothViewsAndBothTracks) {
   EXPECT_EQ(dut.frames_seen, lost.frames_seen + young.frames_seen);
 }
 
+TEST_F(Reidentification, MoreMayBeDoubtedTheLongerItIsLookedAt) {
+  double before = 0;
+  for (const double looked_s : {0.6, 1.0, 1.5, 2.0}) {
+    const MovingObject young = Seen(9, 0, looked_s + 0.1, BoxSurface(kCar, 0.2));
+    const double now = MayBeDoubted(young, At(looked_s));
+    EXPECT_GT(now, before) << looked_s;
+    EXPECT_LT(now, 1) << looked_s;
+    EXPECT_EQ(MayBeDoubted(young, At(looked_s + 0.3)), 1) << "out of sight";
+    before = now;
+  }
+}
+
 }  // namespace
 }  // namespace clearway
