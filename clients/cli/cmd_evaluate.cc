@@ -134,7 +134,7 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams&
   const auto add = [&](std::size_t k, Frame frame, const Frame& told, const FrameReport& report,
                        SceneBuilder& builder) {
     frame.T_W_S = *report.T_W_S;
-    evaluator.Add(k, frame, teller.WithTrueNames(told, builder.Publish()));
+    evaluator.Add(k, frame, report, teller.WithTrueNames(told, builder.Publish()));
   };
   auto status = MakeScene(source, params, flags, terminal, teller, add);
   if (!status.ok()) return status;

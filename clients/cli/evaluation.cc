@@ -45,7 +45,7 @@ Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unla
   }
 }
 
-void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
+void Evaluator::Add(std::size_t k, const Frame& frame, const FrameReport& report, ScenePtr scene) {
   constexpr std::size_t kWaysEvery = 5;
   predictions_.Add(*scene);
   boxes_.Add(*scene);
@@ -53,8 +53,18 @@ void Evaluator::Add(std::size_t k, const Frame& frame, ScenePtr scene) {
   if (box_judge_) box_judge_->Add(k, frame, *scene);
   if (unlabelled_) unlabelled_->Add(frame, *scene);
   if (k % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
+  AddPoints(report);
   AddObjects(*scene);
   found_.scene = std::move(scene);
+}
+
+void Evaluator::AddPoints(const FrameReport& report) {
+  found_.points.used += report.points_used;
+  found_.points.not_finite += report.points_not_finite;
+  found_.points.out_of_bounds += report.points_out_of_bounds;
+  found_.points.ignored += report.points_ignored;
+  found_.points.doubted += report.points_doubted;
+  found_.points.frames_without += report.points_used == 0;
 }
 
 void Evaluator::AddObjects(const SceneSnapshot& scene) {

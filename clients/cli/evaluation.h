@@ -17,6 +17,7 @@
 #include "clearway/report/surface_judge.h"
 #include "clearway/report/unlabelled_score.h"
 #include "clearway/report/way_confusion.h"
+#include "clearway/scene/scene_builder.h"
 #include "cli/truth_source.h"
 
 namespace clearway::cli {
@@ -31,13 +32,22 @@ inline constexpr std::array kWaysAhead = {Duration::zero(), Duration(kAhead[0]),
                                           Duration(kAhead[1]), Duration(kAhead[2]),
                                           Duration(kAhead[3])};
 
+// What became of the points of all frames.
+struct PointCounts {
+  std::size_t used = 0;
+  std::size_t not_finite = 0, out_of_bounds = 0, ignored = 0;  // left out
+  std::size_t doubted = 0;         // of those used, the ones whose label was
+  std::size_t frames_without = 0;  // of which none was used
+};
+
 struct Evaluation {
   std::string command;                                            // that made it
   std::map<ObjectId, std::vector<PredictionErrors>> predictions;  // by kAhead
   std::map<ObjectId, BoxFit> sizes;
   // After each frame that showed the object: seconds since the first frame, occupied voxels.
   std::map<ObjectId, std::vector<Eigen::Vector2d>> growth;
-  ScenePtr scene;                                                  // the last version
+  ScenePtr scene;  // the last version
+  PointCounts points;
   std::map<ObjectId, std::shared_ptr<const MovingObject>> newest;  // dropped ones too
   // Where the true surfaces are known, or recorded boxes stand for them.
   std::map<ObjectId, ObjectFit> fits;
@@ -70,13 +80,15 @@ class Evaluator {
   // Of `unlabelled` the scene is told nothing.
   Evaluator(const TrueSource& source, const std::vector<ObjectId>& unlabelled);
 
-  // Frame k, of true labels, and the version after it, of objects under their true ids.
-  void Add(std::size_t k, const Frame& frame, ScenePtr scene);
+  // Frame k, of true labels, what became of it, and the version after it, of objects under their
+  // true ids.
+  void Add(std::size_t k, const Frame& frame, const FrameReport& report, ScenePtr scene);
 
   // After the last frame; there must be one.
   Evaluation Result() &&;
 
  private:
+  void AddPoints(const FrameReport& report);
   void AddObjects(const SceneSnapshot& scene);
 
   PredictionScore predictions_;

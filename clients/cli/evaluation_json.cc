@@ -5,6 +5,15 @@ namespace clearway::cli {
 namespace {
 
 // No number becomes null.
+Json ToJson(const PointCounts& points) {
+  return {{"used", points.used},
+          {"doubted", points.doubted},
+          {"not_finite", points.not_finite},
+          {"out_of_bounds", points.out_of_bounds},
+          {"ignored", points.ignored},
+          {"frames_without", points.frames_without}};
+}
+
 Json ToJson(const ObjectFit& fit) {
   return {{"occupied_voxels", fit.errors_m.size()},
           {"voxel_m", fit.voxel_m},
@@ -98,9 +107,13 @@ Json ToJson(const std::vector<Confusion>& ways) {
 }  // namespace
 
 void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  Json json = {{"clearway", CLEARWAY_VERSION},        {"command", found.command},
-               {"source", source.frames.description}, {"truth", source.truth.description},
-               {"frames", source.frames.frame_count}, {"objects", Json::array()}};
+  Json json = {{"clearway", CLEARWAY_VERSION},
+               {"command", found.command},
+               {"source", source.frames.description},
+               {"truth", source.truth.description},
+               {"frames", source.frames.frame_count},
+               {"points", ToJson(found.points)},
+               {"objects", Json::array()}};
   for (const auto& [id, of_object] : found.predictions) {
     Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", ToJson(of_object)}};
     const auto size = found.sizes.find(id);

@@ -12,6 +12,20 @@
 namespace clearway::cli {
 namespace {
 
+// Nothing of what is as it should be.
+void PrintPoints(std::ostream& out, const PointCounts& points) {
+  const auto tell = [&](std::size_t count, const char* what) {
+    if (count > 0) out << ", " << Grouped(count) << what;
+  };
+  out << Grouped(points.used) << " points used";
+  tell(points.doubted, " of them doubted");
+  tell(points.not_finite, " left out as not finite");
+  tell(points.out_of_bounds, " as out of bounds");
+  tell(points.ignored, " as to be ignored");
+  if (points.frames_without > 0) out << "; frames without any: " << points.frames_without;
+  out << ".\n\n";
+}
+
 void PrintFits(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << "\nHow far from the true surface the occupied voxels of each object are, in metres: "
          "median, and\nwhat 95 % do not exceed; and how much of the surface that rays met has "
@@ -170,7 +184,8 @@ void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
 }  // namespace
 
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  out << source.frames.description << ", against " << source.truth.description << "\n\n";
+  out << source.frames.description << ", against " << source.truth.description << "\n";
+  PrintPoints(out, found.points);
   PrintPredictions(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -72,6 +73,27 @@ TEST(Evaluate, BoxesThatJumpOrAreHuge) {
     EXPECT_GT(json["objects"][0]["prediction"][0]["count"], 0);
     EXPECT_EQ(json.contains("ways"), size_m < 100);
   }
+}
+
+TEST(Evaluate, TellsWhatPointsItLeftOut) {
+  const StrangeBoxes folder(4.4, 0);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr int kPointBytes = 14;
+  std::ofstream(folder.path() + "/points/0003.bin", std::ios::binary | std::ios::app)
+      .write(std::string(reinterpret_cast<const char*>(&kNan), sizeof kNan)
+                 .append(kPointBytes - sizeof kNan, '\0')
+                 .data(),
+             kPointBytes);
+  std::filesystem::resize_file(folder.path() + "/points/0005.bin", 0);
+  const Finished text = Clearway({"evaluate", folder.path()});
+  EXPECT_THAT(text.out,
+              HasSubstr("\n880 points used, 1 left out as not finite; frames without any: 1.\n"))
+      << text.err;
+  const Finished json = Clearway({"evaluate", folder.path(), "--json"});
+  const auto points = nlohmann::json::parse(json.out)["points"];
+  EXPECT_EQ(points["used"], 880);
+  EXPECT_EQ(points["not_finite"], 1);
+  EXPECT_EQ(points["frames_without"], 1);
 }
 
 TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
