@@ -113,7 +113,7 @@ bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& c
   constexpr double kFew_rad = 0.6 * std::numbers::pi / 180, kOfFew = 2;
   const MovingObject &lost = *objects.at(match.lost), &young = *objects.at(match.young);
   const double doubt = DoubtOf(lost, young, match.T_Y_L, around, params);
-  const double may_be = MayBeDoubted(young, stamp);
+  const double may_be = MayBeDoubted(young);
   if (doubt > may_be) return true;
   const BeamsApart apart = BeamsApartAt(young, cloud, stamp, params);
   const double of_few = apart.rad > kFew_rad ? kOfFew : 1;

@@ -149,12 +149,11 @@ bool IsToBeJoined(const MovingObject& object, Time stamp) {
   return glimpsed == (stamp - object.last_seen > kOutOfSight);
 }
 
-double MayBeDoubted(const MovingObject& object, Time stamp) {
-  constexpr double kAtFirst = 0.3, kAtLast = 0.9;
-  const bool is_in_view = stamp - object.last_seen <= kOutOfSight / 2;
-  if (!is_in_view) return 1;
-  const double looked_s = ToSeconds(stamp - object.first_seen - kFirstGlimpse);
-  return std::lerp(kAtFirst, kAtLast, looked_s / ToSeconds(kYoung - kFirstGlimpse));
+double MayBeDoubted(const MovingObject& object) {
+  constexpr double kOfGlimpse = 0.3, kAtLast = 0.9;
+  const Duration looked = object.last_seen - object.first_seen;
+  const double more_s = std::max(0.0, ToSeconds(looked - kFirstGlimpse));
+  return std::lerp(kOfGlimpse, kAtLast, more_s / ToSeconds(kYoung - kFirstGlimpse));
 }
 
 std::optional<PlaceIfSame> PlaceToBeSeenAgain(const MovingObject& lost, const MovingObject& young,

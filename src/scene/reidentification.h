@@ -27,10 +27,9 @@ inline constexpr Duration kFirstGlimpse = std::chrono::milliseconds(600);
 bool IsToBeJoined(const MovingObject& object, Time stamp);
 
 // How much may then be doubted that they are one, in parts of what is enough alone. Each scan shows
-// more, and of another one of nearly the same shape first little to doubt: so of what is in view
-// little may be doubted at first, and more when hardly anything new is to come. Of what has gone
-// out of sight no more will be seen.
-double MayBeDoubted(const MovingObject& object, Time stamp);
+// more, and of another one of nearly the same shape first little to doubt: so of what was glimpsed
+// little may be doubted, and more of what was looked at for longer.
+double MayBeDoubted(const MovingObject& object);
 
 // So far beyond what was seen of an object before there is hardly anything of it.
 inline constexpr double kReachesBeyond_voxels = 3;
