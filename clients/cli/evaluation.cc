@@ -11,13 +11,10 @@ std::string NameOf(const TrueSource& source, ObjectId id) {
 
 std::vector<PredictionErrors> Together(
     const std::map<ObjectId, std::vector<PredictionErrors>>& predictions) {
-  std::vector<PredictionErrors> all;
-  for (const auto& [id, of_object] : predictions) {
-    all.resize(of_object.size());
-    for (std::size_t i = 0; i < of_object.size(); ++i) {
-      all[i].ahead = of_object[i].ahead;
-      all[i] += of_object[i];
-    }
+  std::vector<PredictionErrors> all(kAhead.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].ahead = kAhead[i];
+    for (const auto& [id, of_object] : predictions) all[i] += of_object[i];
   }
   return all;
 }

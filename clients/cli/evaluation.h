@@ -69,7 +69,7 @@ inline constexpr char kStaticNotKnown[] =
 inline constexpr double kMost = 0.95;  // the share whose error is told beside the median
 
 std::string NameOf(const TrueSource& source, ObjectId id);  // empty if it has none
-// All objects together; empty without any.
+// All objects together, by kAhead.
 std::vector<PredictionErrors> Together(
     const std::map<ObjectId, std::vector<PredictionErrors>>& predictions);
 std::vector<SolidOverlap> Together(const std::map<ObjectId, std::vector<SolidOverlap>>& solids);

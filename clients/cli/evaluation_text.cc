@@ -189,7 +189,13 @@ void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& fo
   PrintPredictions(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);
-  if (found.fits.empty() && found.sizes.empty() && !source.simulation) {
+  if (found.growth.empty()) {
+    out << "\nNo object had points: nothing can be said of any.\n";
+  } else if (found.predictions.empty()) {
+    out << "\nNo object with points is one of which there is truth: labels and truth have no id in "
+           "common.\n";
+  }
+  if (source.sizes_m.empty() && !source.simulation) {
     out << "\nSizes, accuracy, completeness, solids, residue and what is said of the places that "
            "objects pass are not\nknown: the source tells poses of objects but no boxes.\n";
   }

@@ -16,7 +16,11 @@ absl::StatusOr<Pose> PoseOfMatrix(const Eigen::Matrix<double, 3, 4>& matrix,
                                   const std::string& where) {
   const Eigen::Matrix3d R = matrix.leftCols<3>();
   const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= kRotationTolerance) || R.determinant() < 0) {
+  if (R.determinant() < 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ": not a rotation but a mirror image (its determinant is below 0)"));
+  }
+  if (!(error <= kRotationTolerance)) {
     return absl::InvalidArgumentError(absl::StrCat(
         where, ": not a rotation (its columns are off unit length and right angles by ", error,
         "; the limit is ", kRotationTolerance, ")"));

@@ -16,6 +16,7 @@ ScenePtr WithTrueIds(const SceneSnapshot& scene, const std::map<ObjectId, Object
     MovingObject copy = *object;
     copy.id = id;
     copy.also.clear();
+    copy.older_ids_told.clear();
     const auto whole = true_ids.find(copy.part_of);
     if (whole != true_ids.end()) copy.part_of = whole->second;
     renamed.objects.push_back(std::make_shared<const MovingObject>(std::move(copy)));

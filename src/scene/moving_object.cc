@@ -31,6 +31,12 @@ bool IsRounding(const Twist& step) {
 
 }  // namespace
 
+std::vector<ObjectId> MovingObject::Ids() const {
+  std::vector<ObjectId> ids = also;
+  ids.insert(ids.begin(), id);
+  return ids;
+}
+
 Twist VelocityBetween(const StampedPose& before, const StampedPose& after) {
   Twist step = Log(Inverse(before.T_W_O) * after.T_W_O);
   if (IsRounding(step)) return {};

@@ -142,6 +142,10 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   for (const ObjectId id : delta.also) {
     if (id <= kStaticLabel) return Malformed(absl::StrCat(field, ".other_ids: has ", id));
   }
+  if (delta.older_ids_told.size() != delta.also.size()) {
+    return Malformed(absl::StrCat(field, ".older_ids_told_ns: has ", delta.older_ids_told.size(),
+                                  " stamps for ", delta.also.size(), " other_ids"));
+  }
   if (delta.part_of < kStaticLabel || delta.part_of == delta.id) {
     return Malformed(absl::StrCat(field, ".part_of_id: is ", delta.part_of));
   }

@@ -28,6 +28,14 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.future.empty()) object.future_velocity_O = {};
 }
 
+// When it was named so, unless by its newest id.
+void NoteId(MovingObject& object, ObjectId told_as, Time stamp) {
+  const std::vector<ObjectId> ids = object.Ids();
+  for (std::size_t i = 0; i < object.older_ids_told.size(); ++i) {
+    if (ids[i] == told_as) object.older_ids_told[i] = stamp;
+  }
+}
+
 // The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
 // the pose of the first.
 const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
@@ -144,7 +152,7 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     object.bridged = true;
   }
   if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, after_gap, params);
-  if (clue.by_older_id) object.older_ids_told = stamp;
+  NoteId(object, clue.told_as, stamp);
   return object;
 }
 

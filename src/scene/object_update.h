@@ -16,7 +16,7 @@ struct ObjectClue {
   const ObjectMotion* motion = nullptr;
   const ObjectPose* pose = nullptr;
   std::span<const std::uint32_t> points;  // its hits, as indices into the cloud
-  bool by_older_id = false;               // than the newest of the object's ids
+  ObjectId told_as = kStaticLabel;        // of an object of several ids: which of them it was
 
   // Whether it says where the object is.
   bool Places() const { return motion != nullptr || pose != nullptr; }

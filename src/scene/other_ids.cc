@@ -27,17 +27,14 @@ std::set<ObjectId> IdsInGroups(const ObjectMap& objects) {
   return ids;
 }
 
-std::vector<ObjectId> IdsOf(const MovingObject& object) {
-  std::vector<ObjectId> ids = object.also;
-  ids.insert(ids.begin(), object.id);
-  return ids;
-}
-
-// As what it is told by now alone.
-MovingObject UnderNewestId(MovingObject object) {
-  object.id = object.also.back();
-  object.also.clear();
-  object.older_ids_told = {};
+// As what its other ids name. It must be an older one.
+MovingObject Without(ObjectId older_id, MovingObject object) {
+  std::vector<ObjectId> ids = object.Ids();
+  const auto at = std::ranges::find(ids, older_id) - ids.begin();
+  object.older_ids_told.erase(object.older_ids_told.begin() + at);
+  ids.erase(ids.begin() + at);
+  object.id = ids.front();
+  object.also.assign(ids.begin() + 1, ids.end());
   return object;
 }
 
@@ -127,11 +124,12 @@ bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& c
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
                               const SceneParams& params) {
   for (auto& object : objects) {
-    if (object->also.empty() || stamp - object->older_ids_told <= params.object_lifetime) continue;
-    const std::vector<ObjectId> ids = IdsOf(*object);
-    const bool told_anew =
-        std::any_of(ids.begin(), ids.end() - 1, [&](ObjectId id) { return clues.contains(id); });
-    if (told_anew) object = std::make_shared<const MovingObject>(UnderNewestId(*object));
+    const std::vector<ObjectId> ids = object->Ids();
+    const std::vector<Time> told = object->older_ids_told;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      if (stamp - told[i] <= params.object_lifetime || !clues.contains(ids[i])) continue;
+      object = std::make_shared<const MovingObject>(Without(ids[i], *object));
+    }
   }
   return objects;
 }
@@ -141,7 +139,7 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clu
   for (const auto& object : objects) {
     if (object->also.empty()) continue;
     std::vector<ClueMap::iterator> told;  // that with most points last
-    for (const ObjectId id : IdsOf(*object)) {
+    for (const ObjectId id : object->Ids()) {
       if (const auto clue = clues.find(id); clue != clues.end()) told.push_back(clue);
     }
     std::ranges::stable_sort(told, {}, [](const auto& clue) { return clue->second.points.size(); });
@@ -151,7 +149,7 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clu
       continue;
     }
     ObjectClue clue = told.back()->second;
-    clue.by_older_id = told.back()->first != object->also.back();
+    clue.told_as = told.back()->first;
     for (const auto& other : told) clues.erase(other);
     clues[object->id] = clue;
   }

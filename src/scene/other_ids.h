@@ -14,8 +14,8 @@
 
 namespace clearway {
 
-// An object that was not told of by its older ids for the object lifetime goes by its newest one
-// alone if the frame uses an older one: that is another object, by an id that is free again.
+// An id by which an object was not told of for the object lifetime, and which is not its newest,
+// names it no more if the frame uses it: that is another object, by an id that is free again.
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
                               const SceneParams& params);
 

@@ -216,7 +216,9 @@ MovingObject Joined(const MovingObject& lost, const MovingObject& young, const P
   joined.frames_seen += young.frames_seen;
   joined.also.push_back(young.id);
   joined.also.insert(joined.also.end(), young.also.begin(), young.also.end());
-  joined.older_ids_told = std::max(lost.t_k(), young.older_ids_told);
+  joined.older_ids_told.push_back(lost.t_k());
+  joined.older_ids_told.insert(joined.older_ids_told.end(), young.older_ids_told.begin(),
+                               young.older_ids_told.end());
   joined.completion = JoinedCompletion(lost.completion, young.completion, T_Y_L);
   joined = WithMap(std::move(joined), WithVoxelsOf(lost.map_O, young.map_O, T_Y_L, pool));
   joined.bound = BoundOf(joined.history, joined.tracked_since, joined.velocity_O.value_or(Twist{}),

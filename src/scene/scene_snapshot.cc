@@ -122,7 +122,7 @@ void ContentHasher::Add(const MovingObject& object) {
   Add(std::int64_t{object.id});
   Add(static_cast<std::int64_t>(object.also.size()));
   for (const ObjectId id : object.also) Add(std::int64_t{id});
-  Add(object.older_ids_told);
+  for (const Time told : object.older_ids_told) Add(told);
   Add(std::int64_t{object.part_of});
   Add(object.map_O);
   Add(object.completion);

@@ -73,7 +73,9 @@ class DeltaWriter {
     v1::ObjectDelta* proto = part_.add_objects();
     proto->set_object_id(object.id);
     proto->mutable_other_ids()->Add(object.also.begin(), object.also.end());
-    proto->set_older_ids_told_ns(ToNanoseconds(object.older_ids_told));
+    for (const Time told : object.older_ids_told) {
+      proto->add_older_ids_told_ns(ToNanoseconds(told));
+    }
     proto->set_part_of_id(object.part_of);
     if (object.completion) {
       proto->mutable_completion()->set_yaw_rad(object.completion->yaw_rad);
@@ -116,7 +118,9 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   ObjectDelta object;
   object.id = proto.object_id();
   object.also.assign(proto.other_ids().begin(), proto.other_ids().end());
-  object.older_ids_told = read.Stamp("older_ids_told_ns", true, proto.older_ids_told_ns());
+  for (const std::int64_t told_ns : proto.older_ids_told_ns()) {
+    object.older_ids_told.push_back(read.Stamp("older_ids_told_ns", true, told_ns));
+  }
   object.part_of = proto.part_of_id();
   if (proto.has_completion()) {
     const v1::Completion& completion = proto.completion();

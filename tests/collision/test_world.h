@@ -79,6 +79,7 @@ class TestWorld {
   }
   TestWorld& Also(std::vector<ObjectId> ids) {
     MovingObject object = *scene_.objects.back();
+    object.older_ids_told.assign(ids.size(), scene_.stamp);
     object.also = std::move(ids);
     scene_.objects.back() = std::make_shared<const MovingObject>(std::move(object));
     return *this;

@@ -82,7 +82,7 @@ TEST(LidarFolder, RefusesBadRowsNamingThem) {
   EXPECT_THAT(poses_with("x,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("line 5, column frame: 'x'"));
   EXPECT_THAT(poses_with("7,1,0,0,inf,0,1,0,0,0,0,1,0\n"), HasSubstr("line 5, column T03: 'inf'"));
   EXPECT_THAT(poses_with("7,2,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("not a rotation"));
-  EXPECT_THAT(poses_with("7,-1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("not a rotation"));
+  EXPECT_THAT(poses_with("7,-1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("a mirror image"));
   EXPECT_THAT(poses_with("6,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("does not come after frame 6"));
 
   const auto objects_with = [&](const std::string& row) {

@@ -234,12 +234,33 @@ TEST_F(OtherIds, LapseWhenTheyWereNotToldForLong) {
   ASSERT_EQ(scene().objects.size(), 2u);
   EXPECT_EQ(dropped_, 0u);
   const MovingObject &first = *scene().FindObject(12), &other = *scene().FindObject(9);
-  EXPECT_EQ(first.id, 12);
+  EXPECT_EQ(first.id, 5);
   EXPECT_EQ(first.first_seen, At(0));
-  EXPECT_TRUE(first.also.empty());
+  EXPECT_THAT(first.also, ElementsAre(12));
   EXPECT_EQ(other.first_seen, At(20));
   EXPECT_LT(other.observed_box_O.Size().norm(), 6);
-  EXPECT_EQ(scene().FindObject(5), nullptr);
+  EXPECT_EQ(scene().FindObject(5), &first);
+}
+
+// Of a chain the first does, though the second was told not long ago.
+TEST_F(OtherIds, LapseOneByOne) {
+  SeeFor(5, 0, 2);
+  SeeFor(9, 3.5, 18);
+  SeeFor(12, 19.5, 21);
+  ASSERT_THAT(scene().FindObject(5)->also, ElementsAre(9, 12));
+  for (double t = 21; t < 22; t += kPeriod_s) {
+    Frame frame = FrameAt(t);
+    See(frame, 12, t, t == 21);
+    AddObject(frame, 5, Pose::Translation(0, 30, 0), kCar);
+    Apply(frame);
+  }
+  ASSERT_EQ(scene().objects.size(), 2u);
+  EXPECT_EQ(dropped_, 0u);
+  EXPECT_EQ(scene().FindObject(9)->id, 9);
+  EXPECT_EQ(scene().FindObject(9)->first_seen, At(0));
+  EXPECT_THAT(scene().FindObject(9)->also, ElementsAre(12));
+  EXPECT_EQ(scene().FindObject(5)->first_seen, At(21));
+  EXPECT_LT(scene().FindObject(5)->observed_box_O.Size().norm(), 6);
 }
 
 TEST_F(OtherIds, DoNotLapseWhileTheyAreTold) {
@@ -345,6 +366,9 @@ TEST_F(OtherIds, OfADifferenceAreIdsOfObjects) {
   EXPECT_EQ(applied.status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(std::string(applied.status().message()),
               testing::HasSubstr("objects[id=5].other_ids"));
+  delta.objects[0].also = {9, 12};
+  EXPECT_THAT(std::string(clearway::Apply(nullptr, delta).status().message()),
+              testing::HasSubstr("objects[id=5].older_ids_told_ns: has 1 stamps for 2 other_ids"));
 }
 
 }  // namespace

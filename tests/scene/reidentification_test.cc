@@ -147,16 +147,13 @@ TEST_F(Reidentification, JoinedItGoesByAllIdsOfBoth) {
   MovingObject lost = Seen(5, 0, 2, BoxSurface(kCar, 0.08));
   MovingObject young = Seen(9, 3.5, 4, BoxSurface(kCar, 0.08));
   lost.also = {7};
-  lost.older_ids_told = At(1);
+  lost.older_ids_told = {At(1)};
   young.also = {11};
-  young.older_ids_told = At(3.7);
+  young.older_ids_told = {At(3.7)};
   const Pose T_Y_L = Inverse(*young.T_B_O) * *lost.T_B_O;
   const MovingObject dut = Joined(lost, young, T_Y_L, young.t_k(), params_, pool_);
   EXPECT_EQ(dut.also, (std::vector<ObjectId>{7, 9, 11}));
-  EXPECT_EQ(dut.older_ids_told, At(3.7));
-  young.also.clear();
-  young.older_ids_told = {};
-  EXPECT_EQ(Joined(lost, young, T_Y_L, young.t_k(), params_, pool_).older_ids_told, lost.t_k());
+  EXPECT_EQ(dut.older_ids_told, (std::vector<Time>{At(1), lost.t_k(), At(3.7)}));
 }
 
 TEST_F(Reidentification, JoinedItsPredictedPosesAreNoWitnesses) {

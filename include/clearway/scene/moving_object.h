@@ -92,9 +92,9 @@ struct MovingObject {
   // Others under which it was seen again after it had been lost (SceneParams::reidentify), the
   // newest last. They name it as well.
   std::vector<ObjectId> also;
-  // Of such an object: when a frame last named it by another id than the newest. After the object
-  // lifetime a frame that uses one of those means another object by it.
-  Time older_ids_told;
+  // When a frame last named it by each of its ids but the newest, so as many as `also`. After the
+  // object lifetime a frame that uses that id means another object by it.
+  std::vector<Time> older_ids_told;
   // The object that it is a part of (Frame::parts); kStaticLabel: of none.
   ObjectId part_of = kStaticLabel;
   VoxelMap map_O{0.1};  // hits in O
@@ -138,6 +138,7 @@ struct MovingObject {
   bool IsCalled(ObjectId name) const {
     return name == id || std::find(also.begin(), also.end(), name) != also.end();
   }
+  std::vector<ObjectId> Ids() const;  // all that name it, the oldest first
   bool given() const { return given_shape != nullptr; }
   // Whether its solid's shape counts as occupied: its voxels alone may (SolidMode), if it has any.
   bool FillsSolid(SolidMode mode) const { return given() || mode != SolidMode::kVoxels; }

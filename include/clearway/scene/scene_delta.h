@@ -27,7 +27,7 @@ using MapDelta = std::vector<BlockDelta>;  // in BlockTree's order
 struct ObjectDelta {
   ObjectId id = 0;
   std::vector<ObjectId> also;
-  Time older_ids_told;
+  std::vector<Time> older_ids_told;
   ObjectId part_of = kStaticLabel;
   MapDelta map_O;  // against the map of the same id in `from`, or an empty one
   std::optional<Completion> completion;
