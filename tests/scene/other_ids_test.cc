@@ -47,6 +47,15 @@ class OtherIds : public testing::Test {
       Apply(frame);
     }
   }
+  // The car, and far aside another one that stands, for a second.
+  void SeeWithAnother(ObjectId id, ObjectId another, double from_s) {
+    for (double t = from_s; t < from_s + 1; t += kPeriod_s) {
+      Frame frame = FrameAt(t);
+      See(frame, id, t, t == from_s);
+      AddObject(frame, another, Pose::Translation(0, 30, 0), kCar);
+      Apply(frame);
+    }
+  }
   void LoseAndSeeAgain() {
     SeeFor(5, 0, 2);
     SeeFor(9, 3.5, 4.5);
@@ -225,12 +234,7 @@ TEST_F(OtherIds, LapseWhenTheyWereNotToldForLong) {
   LoseAndSeeAgain();
   SeeFor(12, 6, 20);
   ASSERT_THAT(scene().FindObject(12)->also, ElementsAre(9, 12));
-  for (double t = 20; t < 21; t += kPeriod_s) {
-    Frame frame = FrameAt(t);
-    See(frame, 12, t, t == 20);
-    AddObject(frame, 9, Pose::Translation(0, 30, 0), kCar);
-    Apply(frame);
-  }
+  SeeWithAnother(12, 9, 20);
   ASSERT_EQ(scene().objects.size(), 2u);
   EXPECT_EQ(dropped_, 0u);
   const MovingObject &first = *scene().FindObject(12), &other = *scene().FindObject(9);
@@ -248,12 +252,7 @@ TEST_F(OtherIds, LapseOneByOne) {
   SeeFor(9, 3.5, 18);
   SeeFor(12, 19.5, 21);
   ASSERT_THAT(scene().FindObject(5)->also, ElementsAre(9, 12));
-  for (double t = 21; t < 22; t += kPeriod_s) {
-    Frame frame = FrameAt(t);
-    See(frame, 12, t, t == 21);
-    AddObject(frame, 5, Pose::Translation(0, 30, 0), kCar);
-    Apply(frame);
-  }
+  SeeWithAnother(12, 5, 21);
   ASSERT_EQ(scene().objects.size(), 2u);
   EXPECT_EQ(dropped_, 0u);
   EXPECT_EQ(scene().FindObject(9)->id, 9);
