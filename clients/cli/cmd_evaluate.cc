@@ -201,7 +201,7 @@ void AddEvaluate(Cli& cli) {
   command
       ->add_option("--grazing", flags->grazing_m,
                    "As of clearway-server --scene-grazing-m: with 4\nthe static map keeps what "
-                   "rays only graze")
+                   "rays only graze (98 % of\nsim:street's surface instead of 75)")
       ->check(Between(0, 100))
       ->capture_default_str();
   command

@@ -76,8 +76,11 @@ bool IsPassed(const Layer& layer) {
   return layer.passed >= kFewestVoxels && 2 * layer.passed >= layer.voxels;
 }
 
-// As one between two rows of beams is.
-bool IsUnseen(const Layer& layer) { return 10 * (layer.passed + layer.there) < layer.voxels; }
+// As one between two rows of beams is: rays tell of hardly any of its voxels.
+bool IsUnseen(const Layer& layer) {
+  constexpr std::size_t kOneTold = 10;  // of that many
+  return kOneTold * (layer.passed + layer.there) < layer.voxels;
+}
 
 // Whether rays passed the object's outermost layers, from that end on up to where the other one is.
 // One layer is off by rounding: it takes two that they passed, or one if three are missing and the
