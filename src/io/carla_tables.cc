@@ -142,7 +142,7 @@ absl::StatusOr<std::vector<RecordedPose>> ReadCarlaSensor(const Path& path) {
     CsvRow reader(*table, row);
     RecordedPose pose;
     pose.frame = static_cast<int>(reader.Integer((*key)[0], 0, kMaxFrame));
-    const double seconds = reader.NumberWithin((*key)[1], kMostSeconds);
+    const double seconds = reader.NumberBetween((*key)[1], 0, kMostSeconds);
     pose.T_W_S = TakePose(reader, *transform);
     if (!reader.status().ok()) return reader.status();
     pose.stamp = Time(FromSeconds(seconds));

@@ -1,7 +1,10 @@
 #include "clearway/io/cluster_slam.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "io/cluster_slam_files.h"
 #include "io/cluster_slam_fit.h"
 #include "io/lidar_frames.h"
+#include "io/numbered_files.h"
 
 namespace clearway {
 namespace {
@@ -34,28 +38,61 @@ struct Sequence {
   }
 };
 
-ClusterPoints PointsOf(const Sequence& sequence, const Landmarks& left, const Landmarks& right) {
+// A landmark that both cameras see; pixels.
+struct SeenTwice {
+  int landmark = 0;
+  Eigen::Vector2d left, right;
+};
+
+absl::StatusOr<std::vector<SeenTwice>> ReadSeenTwice(const Sequence& sequence, int frame) {
+  const auto left = ReadLandmarks(sequence.FileOf("left", frame));
+  const auto right = ReadLandmarks(sequence.FileOf("right", frame));
+  std::vector<SeenTwice> seen;
+  for (const absl::Status& status : {left.status(), right.status()}) {
+    if (absl::IsNotFound(status) && sequence.allow_missing) return seen;
+    if (!status.ok()) return status;
+  }
+  for (const auto& [landmark, pixel] : *left) {
+    const auto other = right->find(landmark);
+    if (other != right->end()) seen.push_back({landmark, pixel, other->second});
+  }
+  return seen;
+}
+
+absl::StatusOr<ClusterPoints> ReadPoints(const Sequence& sequence, int frame) {
+  const auto seen = ReadSeenTwice(sequence, frame);
+  if (!seen.ok()) return seen.status();
   ClusterPoints points;
-  for (const auto& [landmark, pixel] : left) {
-    const auto other = right.find(landmark);
-    if (other == right.end()) continue;
-    const auto p_S = sequence.cameras.Triangulate(pixel, other->second);
+  for (const SeenTwice& landmark : *seen) {
+    const auto p_S = sequence.cameras.Triangulate(landmark.left, landmark.right);
     if (!p_S || (sequence.max_depth_m && p_S->z() > *sequence.max_depth_m)) continue;
-    const auto cluster = sequence.clusters.find(landmark);
+    const auto cluster = sequence.clusters.find(landmark.landmark);
     const ObjectId label = cluster == sequence.clusters.end() ? kIgnoreLabel : cluster->second;
-    points.push_back({landmark, label, *p_S, pixel});
+    points.push_back({landmark.landmark, label, *p_S, landmark.left});
   }
   return points;
 }
 
-absl::StatusOr<ClusterPoints> ReadPoints(const Sequence& sequence, int frame) {
-  const auto left = ReadLandmarks(sequence.FileOf("left", frame));
-  const auto right = ReadLandmarks(sequence.FileOf("right", frame));
-  for (const absl::Status& status : {left.status(), right.status()}) {
-    if (absl::IsNotFound(status) && sequence.allow_missing) return ClusterPoints();
-    if (!status.ok()) return status;
+// Of cameras that are swapped no rays meet. Looks at frames that are spread over the sequence.
+absl::Status CheckCameras(const Sequence& sequence) {
+  constexpr std::size_t kMostFrames = 20, kFewest = 8;
+  const std::size_t frames = std::min(kMostFrames, sequence.poses.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(i * sequence.poses.size() / frames);
+    const auto seen = ReadSeenTwice(sequence, std::next(sequence.poses.begin(), at)->first);
+    if (!seen.ok()) return seen.status();
+    for (const SeenTwice& landmark : *seen) {
+      if (sequence.cameras.Triangulate(landmark.left, landmark.right)) return absl::OkStatus();
+    }
+    count += seen->size();
   }
-  return PointsOf(sequence, *left, *right);
+  if (count < kFewest) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      sequence.folder.string(), ": of none of the ", count, " landmarks that both cameras see in ",
+      frames,
+      " frames do their rays meet before them, a pixel apart or more: are left and right "
+      "swapped, in landmarks or in intrinsic.txt?"));
 }
 
 absl::StatusOr<Sequence> ReadSequence(const Path& folder, const ClusterSlamOptions& options) {
@@ -90,15 +127,39 @@ absl::Status CheckFit(const ClusterFit& fit, const Path& folder, LidarObjects ob
   return absl::OkStatus();
 }
 
-std::string Described(const std::string& name, const ClusterFit& fit) {
+// How many clusters have landmarks, but no poses.
+std::size_t WithoutPoses(const Sequence& sequence) {
+  const std::size_t posed = sequence.poses.begin()->second.size();
+  std::set<ObjectId> clusters;
+  for (const auto& [landmark, cluster] : sequence.clusters) {
+    if (static_cast<std::size_t>(cluster) >= posed) clusters.insert(cluster);
+  }
+  return clusters.size();
+}
+
+// How many frames have landmarks, but no poses.
+std::size_t FramesLeftOut(const Sequence& sequence) {
+  const auto files = NumberedFiles(sequence.folder / "landmarks/left", ".txt");
+  if (!files.ok()) return 0;
+  return std::ranges::count_if(
+      *files, [&](const auto& file) { return !sequence.poses.contains(file.first); });
+}
+
+std::string Described(const std::string& name, const Sequence& sequence, const ClusterFit& fit) {
   std::string text =
-      absl::StrCat(name, "; quaternions are ",
-                   fit.order == QuaternionOrder::kWFirst ? "w, x, y, z" : "x, y, z, w");
+      absl::StrCat(name, "; quaternions are ", fit.static_px ? "" : "taken for ",
+                   fit.order == QuaternionOrder::kWFirst ? "w, x, y, z" : "x, y, z, w",
+                   fit.static_px ? "" : " (too few static landmarks to tell)");
   if (fit.static_px) {
     absl::StrAppendFormat(&text, "; landmarks are seen %.1f pixels from where poses put them",
                           *fit.static_px);
   }
   if (fit.moving_px) absl::StrAppendFormat(&text, ", those that move %.1f", *fit.moving_px);
+  const auto add = [&text](std::size_t count, const char* what) {
+    if (count > 0) absl::StrAppend(&text, "; ", count, what);
+  };
+  add(FramesLeftOut(sequence), " frames of landmarks without poses are left out");
+  add(WithoutPoses(sequence), " clusters of landmark_mapping.txt have no poses");
   return text;
 }
 
@@ -140,6 +201,7 @@ absl::StatusOr<LidarFolder> OpenClusterSlam(const Path& given, const ClusterSlam
   auto read = ReadSequence(folder, options);
   if (!read.ok()) return read.status();
   const auto sequence = std::make_shared<const Sequence>(*std::move(read));
+  if (auto status = CheckCameras(*sequence); !status.ok()) return status;
   const auto fit = FitOf(sequence->poses, sequence->cameras,
                          [&](int frame) { return ReadPoints(*sequence, frame); });
   if (!fit.ok()) return fit.status();
@@ -157,7 +219,7 @@ absl::StatusOr<LidarFolder> OpenClusterSlam(const Path& given, const ClusterSlam
   scans.read = [sequence](const Path&, std::span<const RecordedBox>, Frame& frame) {
     return Fill(*sequence, frame);
   };
-  const std::string description = Described(scans.name, *fit);
+  const std::string description = Described(scans.name, *sequence, *fit);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));
   if (result.ok()) result->frames.description = description;
   return result;

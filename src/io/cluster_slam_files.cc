@@ -99,6 +99,9 @@ absl::StatusOr<LandmarkClusters> ReadLandmarkClusters(const Path& path) {
     return absl::InvalidArgumentError(
         absl::StrCat(line.where(), ": landmark ", landmark, " occurs twice"));
   }
+  if (clusters.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no landmark has a cluster"));
+  }
   return clusters;
 }
 

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/file.h"
+#include "io/no_column.h"
 #include "io/utf8.h"
 
 namespace clearway {
@@ -143,7 +144,7 @@ bool CsvTable::HasColumn(const std::string& column) const {
 absl::StatusOr<std::size_t> CsvTable::Column(const std::string& column) const {
   const auto it = std::find(header_.begin(), header_.end(), column);
   if (it == header_.end()) {
-    return absl::InvalidArgumentError(absl::StrCat(name_, ", line 1: no column ", column));
+    return absl::InvalidArgumentError(absl::StrCat(name_, ", line 1: ", NoColumn(column, header_)));
   }
   return static_cast<std::size_t>(it - header_.begin());
 }
@@ -163,9 +164,13 @@ double CsvRow::Number(std::size_t column) {
 }
 
 double CsvRow::NumberWithin(std::size_t column, double limit) {
+  return NumberBetween(column, -limit, limit);
+}
+
+double CsvRow::NumberBetween(std::size_t column, double min, double max) {
   const double value = Number(column);
-  if (!(std::abs(value) <= limit)) {
-    Fail(column, absl::StrCat("a number from ", -limit, " to ", limit));
+  if (!(min <= value && value <= max)) {
+    Fail(column, absl::StrCat("a number from ", min, " to ", max));
   }
   return value;
 }

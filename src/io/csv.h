@@ -46,6 +46,8 @@ class CsvRow {
   double Number(std::size_t column);
   // Within a limit either way.
   double NumberWithin(std::size_t column, double limit);
+  // In [min, max].
+  double NumberBetween(std::size_t column, double min, double max);
   // An integer in [min, max].
   std::int64_t Integer(std::size_t column, std::int64_t min, std::int64_t max);
   // At most 200 bytes of UTF-8 without control characters.

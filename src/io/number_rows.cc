@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/file.h"
+#include "io/no_column.h"
 
 namespace clearway {
 namespace {
@@ -91,12 +92,14 @@ class NumberTable {
   }
 
   absl::Status ReadHeader() {
+    const bool is_empty = rest_.empty();
     TakeLine();
+    if (is_empty) return row_.Error("the file is empty; a header line is expected");
     width_ = fields_.size();
     for (const NumberColumn& column : row_.columns_) {
       const auto found = std::ranges::find(fields_, column.name);
       if (found == fields_.end() && !column.optional) {
-        return row_.Error(absl::StrCat("no column ", column.name));
+        return row_.Error(NoColumn(column.name, fields_));
       }
       places_.push_back(static_cast<std::size_t>(found - fields_.begin()));
     }

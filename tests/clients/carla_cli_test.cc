@@ -60,11 +60,11 @@ class CarlaScans : public CliServer {
 };
 
 TEST_F(CarlaScans, InfoTellsWhatTheyHold) {
-  const Finished text = Local({"info", path()});
+  const Finished text = RunClearway({"info", path()});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("CARLA scans " + path()));
   EXPECT_THAT(text.out, HasSubstr("walker.pedestrian.0004"));
-  const json info = json::parse(Local({"info", path(), "--json"}).out);
+  const json info = json::parse(RunClearway({"info", path(), "--json"}).out);
   EXPECT_EQ(info["frames"], kFrameCount);
   EXPECT_EQ(info["points"], kFrameCount * (kColumns * kRows + kObject));
   EXPECT_EQ(info["first_stamp_ns"], 7'000'000'000);
@@ -86,14 +86,14 @@ TEST_F(CarlaScans, ReplayFillsAServer) {
 }
 
 TEST_F(CarlaScans, EvaluateJudgesByActors) {
-  const json found = json::parse(Local({"evaluate", path(), "--json"}).out);
+  const json found = json::parse(RunClearway({"evaluate", path(), "--json"}).out);
   ASSERT_EQ(found["objects"].size(), 1u);
   EXPECT_EQ(found["objects"][0]["id"], 24);
 }
 
 TEST_F(CarlaScans, ErrorsNameTheLine) {
   folder_.Write("000400.ply", "ply\nformat binary_little_endian 1.0\n");
-  const Finished dut = Local({"info", path()});
+  const Finished dut = RunClearway({"info", path()});
   EXPECT_NE(dut.exit_code, 0);
   EXPECT_THAT(dut.err, HasSubstr("000400.ply, line 2: format binary_little_endian"));
 }

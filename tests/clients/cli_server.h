@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clients/run_clearway.h"
 #include "clients/server_process.h"
-#include "clients/subprocess.h"
 
 namespace clearway {
 
@@ -25,15 +25,8 @@ class CliServer : public ::testing::Test {
   }
 
   Finished Clearway(std::vector<std::string> arguments, const std::string& input = "") {
-    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
     arguments.insert(arguments.end(), {"--server", server_->address()});
-    return RunProgram(arguments, input);
-  }
-
-  // A command that asks no server.
-  static Finished Local(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), CLEARWAY_BINARY);
-    return RunProgram(arguments);
+    return RunClearway(arguments, input);
   }
 
   // The answer of a command that must succeed.

@@ -141,7 +141,7 @@ TEST_F(CliServer, ExportsMapsThatInfoReads) {
   for (const char* format : {"bt", "ot"}) {
     const std::string file = folder / (std::string("static.") + format);
     EXPECT_GT(Ask({"export", "--out", file})["bytes"], 0);
-    const json info = json::parse(RunProgram({CLEARWAY_BINARY, "info", file, "--json"}).out);
+    const json info = json::parse(RunClearway({"info", file, "--json"}).out);
     EXPECT_EQ(info["occupied_voxels"], status["static_occupied_voxels"]);
     EXPECT_EQ(info["format"], format);
   }

@@ -49,12 +49,12 @@ class ClusterSequence : public CliServer {
 };
 
 TEST_F(ClusterSequence, InfoReplayAndEvaluate) {
-  EXPECT_THAT(Local({"info", path()}).out, HasSubstr("ClusterSLAM sequence " + path()));
+  EXPECT_THAT(RunClearway({"info", path()}).out, HasSubstr("ClusterSLAM sequence " + path()));
   EXPECT_EQ(Ask({"replay", path(), "--quiet"})["points"], kFrameCount * 100);
   const json objects = Ask({"objects"})["objects"];
   ASSERT_EQ(objects.size(), 1u);
   EXPECT_NEAR(objects[0]["speed_mps"].get<double>(), 1, 1e-6);
-  EXPECT_EQ(json::parse(Local({"evaluate", path(), "--json"}).out)["objects"].size(), 1u);
+  EXPECT_EQ(json::parse(RunClearway({"evaluate", path(), "--json"}).out)["objects"].size(), 1u);
 }
 
 TEST_F(ClusterSequence, ReplayMayLeaveOutWhatIsFar) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "clients/run_clearway.h"
 #include "clients/subprocess.h"
 #include "support/temporary_folder.h"
 
@@ -14,32 +15,27 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-Finished Clearway(std::vector<std::string> arguments, const std::string& input = "") {
-  arguments.insert(arguments.begin(), CLEARWAY_BINARY);
-  return RunProgram(arguments, input);
-}
-
 std::vector<std::string> Commands() {
   return {"simulate", "info",  "evaluate", "replay",     "status", "objects",     "occupancy",
           "plan",     "check", "export",   "load-prior", "reset",  "server-info", "bench"};
 }
 
 TEST(CommandLine, Empty) {
-  const Finished dut = Clearway({});
+  const Finished dut = RunClearway({});
   EXPECT_EQ(dut.exit_code, 2);
   EXPECT_THAT(dut.err, StartsWith("clearway: give a command"));
   EXPECT_THAT(dut.out, IsEmpty());
 }
 
 TEST(CommandLine, HelpNamesEveryCommand) {
-  const Finished dut = Clearway({"--help"});
+  const Finished dut = RunClearway({"--help"});
   EXPECT_EQ(dut.exit_code, 0);
   for (const std::string& command : Commands()) EXPECT_THAT(dut.out, HasSubstr("\n  " + command));
 }
 
 TEST(CommandLine, EveryCommandShowsAnExampleAndHasJson) {
   for (const std::string& command : Commands()) {
-    const Finished dut = Clearway({command, "--help"});
+    const Finished dut = RunClearway({command, "--help"});
     EXPECT_EQ(dut.exit_code, 0) << command;
     EXPECT_THAT(dut.out, HasSubstr("clearway " + command + " "));
     EXPECT_THAT(dut.out, HasSubstr("Example"));
@@ -49,7 +45,7 @@ TEST(CommandLine, EveryCommandShowsAnExampleAndHasJson) {
 
 TEST(CommandLine, NoLineOfHelpIsWiderThanATerminal) {
   for (const std::string& command : Commands()) {
-    std::istringstream help(Clearway({command, "--help"}).out);
+    std::istringstream help(RunClearway({command, "--help"}).out);
     for (std::string line; std::getline(help, line);) EXPECT_LE(line.size(), 100u) << line;
   }
 }
@@ -85,7 +81,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"bench", "--states", "9", "--unknown", "2"}, "--unknown"},
   };
   for (const auto& [arguments, named] : cases) {
-    const Finished dut = Clearway(arguments);
+    const Finished dut = RunClearway(arguments);
     EXPECT_EQ(dut.exit_code, 2) << dut.err;
     EXPECT_THAT(dut.err, StartsWith("clearway: "));
     EXPECT_THAT(dut.err, HasSubstr(named));
@@ -105,18 +101,18 @@ TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
 
 TEST(CommandLine, RefusesNumbersOutOfRangeShortly) {
   for (const std::string bad : {"nan", "-1", "inf", "1e9", "x"}) {
-    const Finished dut = Clearway({"check", "--robot", "sphere:1", "--state", "0,0,0,0",
-                                   "--padding=" + bad, "--server", "127.0.0.1:1"});
+    const Finished dut = RunClearway({"check", "--robot", "sphere:1", "--state", "0,0,0,0",
+                                      "--padding=" + bad, "--server", "127.0.0.1:1"});
     EXPECT_EQ(dut.exit_code, 2) << bad;
     EXPECT_THAT(dut.err, HasSubstr("--padding: " + bad + " is not between 0 and 100000")) << bad;
   }
-  EXPECT_EQ(Clearway({"status", "--timeout", "nan"}).exit_code, 2);
+  EXPECT_EQ(RunClearway({"status", "--timeout", "nan"}).exit_code, 2);
 }
 
 TEST(CommandLine, SaysThatNoServerAnswers) {
   for (const char* command : {"status", "bench"}) {
     // Port 1 is nobody's.
-    const Finished dut = Clearway({command, "--server", "127.0.0.1:1", "--timeout", "1"});
+    const Finished dut = RunClearway({command, "--server", "127.0.0.1:1", "--timeout", "1"});
     EXPECT_EQ(dut.exit_code, 1);
     EXPECT_THAT(dut.err, StartsWith("clearway: no server answers at 127.0.0.1:1"));
     EXPECT_THAT(dut.err, HasSubstr("clearway-server"));
@@ -127,37 +123,37 @@ TEST(CommandLine, SimulatesAndListsARecording) {
   const TemporaryFolder folder;
   const std::string file = folder / "small.cwr";
   const Finished written =
-      Clearway({"simulate", "small", "--out", file, "--frames", "4", "--seed", "3", "--json"});
+      RunClearway({"simulate", "small", "--out", file, "--frames", "4", "--seed", "3", "--json"});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   const auto summary = nlohmann::json::parse(written.out);
   EXPECT_EQ(summary["frames"], 4);
   EXPECT_GT(summary["points"], 100);
 
-  const Finished listed = Clearway({"info", file, "--json"});
+  const Finished listed = RunClearway({"info", file, "--json"});
   ASSERT_EQ(listed.exit_code, 0) << listed.err;
   const auto info = nlohmann::json::parse(listed.out);
   EXPECT_EQ(info["kind"], "recording");
   EXPECT_EQ(info["frames"], 4);
   EXPECT_EQ(info["points"], summary["points"]);
-  EXPECT_THAT(Clearway({"info", file}).out, HasSubstr("frames      4 over"));
+  EXPECT_THAT(RunClearway({"info", file}).out, HasSubstr("frames      4 over"));
 }
 
 TEST(CommandLine, NeverReplacesARecordingUnasked) {
   const TemporaryFolder folder;
   const std::string file = folder.Write("small.cwr", "mine");
-  const Finished dut = Clearway({"simulate", "small", "--out", file, "--frames", "2"});
+  const Finished dut = RunClearway({"simulate", "small", "--out", file, "--frames", "2"});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("exists; --force replaces it"));
   EXPECT_EQ(BytesOf(file), "mine");
-  EXPECT_EQ(Clearway({"simulate", "small", "--out", file, "--frames", "2", "--force"}).exit_code,
+  EXPECT_EQ(RunClearway({"simulate", "small", "--out", file, "--frames", "2", "--force"}).exit_code,
             0);
 }
 
 TEST(CommandLine, NoiseChangesARecordingAndTheSeedFixesIt) {
   const TemporaryFolder folder;
   const auto simulate = [&folder](const std::string& name, const std::string& seed) {
-    Clearway({"simulate", "small", "-o", folder / name, "--frames", "3", "--noise", "table1",
-              "--seed", seed});
+    RunClearway({"simulate", "small", "-o", folder / name, "--frames", "3", "--noise", "table1",
+                 "--seed", seed});
     return BytesOf(folder / name);
   };
   const std::string first = simulate("a", "5");
@@ -167,7 +163,7 @@ TEST(CommandLine, NoiseChangesARecordingAndTheSeedFixesIt) {
 }
 
 TEST(CommandLine, InfoTellsWhatASimulationHolds) {
-  const Finished dut = Clearway({"info", "sim:crossing", "--json"});
+  const Finished dut = RunClearway({"info", "sim:crossing", "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const auto info = nlohmann::json::parse(dut.out);
   EXPECT_EQ(info["kind"], "simulation");
@@ -175,7 +171,7 @@ TEST(CommandLine, InfoTellsWhatASimulationHolds) {
 }
 
 TEST(CommandLine, AnUnknownScenarioListsTheKnownOnes) {
-  const Finished dut = Clearway({"info", "sim:moon"});
+  const Finished dut = RunClearway({"info", "sim:moon"});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("crossing"));
 }
@@ -184,18 +180,18 @@ TEST(CommandLine, NamesABadFile) {
   const TemporaryFolder folder;
   for (const char* name : {"broken.cwr", "broken.bt", "broken.ot"}) {
     const std::string file = folder.Write(name, "not a file of this kind");
-    const Finished dut = Clearway({"info", file});
+    const Finished dut = RunClearway({"info", file});
     EXPECT_EQ(dut.exit_code, 1) << name;
     EXPECT_THAT(dut.err, HasSubstr(name));
   }
-  const Finished missing = Clearway({"info", folder / "none.cwr"});
+  const Finished missing = RunClearway({"info", folder / "none.cwr"});
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_THAT(missing.err, HasSubstr("none.cwr"));
-  EXPECT_EQ(Clearway({"info", folder.path()}).exit_code, 1);
+  EXPECT_EQ(RunClearway({"info", folder.path()}).exit_code, 1);
 }
 
 TEST(CommandLine, ReplayRefusesAMap) {
-  const Finished dut = Clearway({"replay", "map.bt"});
+  const Finished dut = RunClearway({"replay", "map.bt"});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("load-prior"));
 }
@@ -203,14 +199,14 @@ TEST(CommandLine, ReplayRefusesAMap) {
 TEST(CommandLine, NamesTheFieldOfABrokenRobot) {
   const TemporaryFolder folder;
   const std::string file = folder.Write("robot.json", R"({"name": "r", "links": [{}]})");
-  const Finished dut = Clearway({"check", "--robot", file, "--state", "0,0,0,0"});
+  const Finished dut = RunClearway({"check", "--robot", file, "--state", "0,0,0,0"});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("robot.json: links[0].name: missing"));
 }
 
 TEST(CommandLine, ReadsStatesFromStandardInput) {
   const Finished dut =
-      Clearway({"check", "--robot", "box:1,1,1", "--states", "-"}, "x,y,z,yaw\n1,2,three,4\n");
+      RunClearway({"check", "--robot", "box:1,1,1", "--states", "-"}, "x,y,z,yaw\n1,2,three,4\n");
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("stdin, line 2, column z"));
 }

@@ -52,11 +52,11 @@ class DynosamLogs : public CliServer {
 
 TEST_F(DynosamLogs, InfoTellsWhatTheyHold) {
   for (const char* log : {"", "/hybrid_backend_camera_pose_log.csv"}) {
-    const Finished text = Local({"info", path() + log});
+    const Finished text = RunClearway({"info", path() + log});
     EXPECT_EQ(text.exit_code, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr(absl::StrCat("DynoSAM logs ", path(), "/hybrid_backend_*")));
   }
-  const json info = json::parse(Local({"info", path(), "--json"}).out);
+  const json info = json::parse(RunClearway({"info", path(), "--json"}).out);
   EXPECT_EQ(info["frames"], kFrameCount);
   EXPECT_EQ(info["points"], kWallPoints + kFrameCount * kObjectPoints);
   EXPECT_EQ(info["first_stamp_ns"], 1'000'000'000);
@@ -77,17 +77,17 @@ TEST_F(DynosamLogs, ReplayFillsAServer) {
 }
 
 TEST_F(DynosamLogs, EvaluateJudgesByThePosesOfObjects) {
-  const Finished text = Local({"evaluate", path()});
+  const Finished text = RunClearway({"evaluate", path()});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, Not(HasSubstr("true boxes")));  // nobody told their sizes
-  const json found = json::parse(Local({"evaluate", path(), "--json"}).out);
+  const json found = json::parse(RunClearway({"evaluate", path(), "--json"}).out);
   ASSERT_EQ(found["objects"].size(), 1u);
   EXPECT_EQ(found["objects"][0]["id"], 5);
 }
 
 TEST_F(DynosamLogs, ErrorsNameTheLine) {
   folder_.Write("hybrid_backend_object_pose_log.csv", "frame_id,object_id\n1,2\n");
-  const Finished dut = Local({"replay", path()});
+  const Finished dut = RunClearway({"replay", path()});
   EXPECT_NE(dut.exit_code, 0);
   EXPECT_THAT(dut.err, HasSubstr("hybrid_backend_object_pose_log.csv, line 1: no column tx"));
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "clients/subprocess.h"
+#include "clients/run_clearway.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -14,13 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Finished Clearway(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), CLEARWAY_BINARY);
-  return RunProgram(arguments);
-}
-
 TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
-  const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "30", "--json"});
+  const Finished dut = RunClearway({"evaluate", "sim:small", "--frames", "30", "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const auto json = nlohmann::json::parse(dut.out);
   EXPECT_EQ(json["command"], "clearway evaluate sim:small --frames 30 --json");
@@ -34,11 +29,11 @@ TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
     EXPECT_LE(ahead[0]["median_m"], ahead[1]["median_m"]) << object;
   }
   const Finished noisy =
-      Clearway({"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
+      RunClearway({"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
   const auto with_noise = nlohmann::json::parse(noisy.out);
   EXPECT_GT(with_noise["objects"][0]["prediction"][0]["median_m"],
             json["objects"][0]["prediction"][0]["median_m"]);
-  const Finished brief = Clearway({"evaluate", "sim:small", "--frames", "3", "--json"});
+  const Finished brief = RunClearway({"evaluate", "sim:small", "--frames", "3", "--json"});
   const auto too_short = nlohmann::json::parse(brief.out)["objects"][0]["prediction"][0];
   EXPECT_EQ(too_short["count"], 0);
   EXPECT_TRUE(too_short["median_m"].is_null());
@@ -46,7 +41,7 @@ TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
 
 TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
   const Finished dut =
-      Clearway({"evaluate", "sim:small", "--frames", "30", "--motion", "track", "--json"});
+      RunClearway({"evaluate", "sim:small", "--frames", "30", "--motion", "track", "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const auto json = nlohmann::json::parse(dut.out);
   for (const auto& object : json["objects"]) {
@@ -67,20 +62,20 @@ TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
   EXPECT_GT(json["static"]["grid"]["truly_free"]["free"], 1000);
   EXPECT_EQ(json["static"]["residual_voxels"], 0);
   EXPECT_EQ(json["static"]["free_precision"], 1);
-  const Finished text = Clearway({"evaluate", "sim:small", "--frames", "3"});
+  const Finished text = RunClearway({"evaluate", "sim:small", "--frames", "3"});
   for (const char* told : {"predictions", "covered", "F-scores", "precision", "nothing static",
                            "map / box", "places that each object passes"}) {
     EXPECT_THAT(text.out, HasSubstr(told));
   }
-  EXPECT_EQ(Clearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
+  EXPECT_EQ(RunClearway({"evaluate", "sim:small", "--motion", "first"}).exit_code, 2);
 }
 
 TEST(Evaluate, ObjectsOfSmallerVoxels) {
   const Finished dut =
-      Clearway({"evaluate", "sim:small", "--frames", "3", "--object-voxel", "0.05", "--json"});
+      RunClearway({"evaluate", "sim:small", "--frames", "3", "--object-voxel", "0.05", "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   EXPECT_EQ(nlohmann::json::parse(dut.out)["objects"][0]["reconstruction"]["voxel_m"], 0.05);
-  EXPECT_EQ(Clearway({"evaluate", "sim:small", "--object-voxel", "0"}).exit_code, 2);
+  EXPECT_EQ(RunClearway({"evaluate", "sim:small", "--object-voxel", "0"}).exit_code, 2);
 }
 
 // Of the drift of the simulated SLAM hardly anything is left.
@@ -88,7 +83,7 @@ TEST(Evaluate, MapsOfMendedSensorPoses) {
   const auto residual = [](std::vector<std::string> flags) {
     flags.insert(flags.begin(),
                  {"evaluate", "sim:small", "--frames", "30", "--noise", "table1", "--json"});
-    const Finished dut = Clearway(flags);
+    const Finished dut = RunClearway(flags);
     EXPECT_EQ(dut.exit_code, 0) << dut.err;
     return nlohmann::json::parse(dut.out)["static"]["residual_voxels"].get<int>();
   };
@@ -100,7 +95,7 @@ TEST(Evaluate, OnAPageThatNeedsNothingElse) {
   const std::string page = folder / "small.html", other = folder / "small.html.png";
   std::ofstream(other) << "somebody's own";
   const Finished dut =
-      Clearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
+      RunClearway({"evaluate", "sim:small", "--frames", "12", "--html", page, "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const std::string html = BytesOf(page);
   for (const char* part : {"<!doctype html>", "<svg", "maps grow", "map / box", "--frames 12",
@@ -127,7 +122,7 @@ TEST(Evaluate, ReplacesNothingButAPage) {
       {page, ""},
       {folder / "link.html", ""}};
   for (const auto& [file, why] : cases) {
-    const Finished dut = Clearway({"evaluate", "sim:small", "--frames", "2", "--html", file});
+    const Finished dut = RunClearway({"evaluate", "sim:small", "--frames", "2", "--html", file});
     EXPECT_EQ(dut.exit_code, why.empty() ? 0 : 1) << file;
     EXPECT_THAT(dut.err, HasSubstr(why));
   }
@@ -140,7 +135,7 @@ TEST(Evaluate, ReplacesNothingButAPage) {
 TEST(Evaluate, WithWrongLabels) {
   const auto object = [](std::vector<std::string> flags) {
     flags.insert(flags.begin(), {"evaluate", "sim:small", "--frames", "20", "--json"});
-    return nlohmann::json::parse(Clearway(flags).out)["objects"][0];
+    return nlohmann::json::parse(RunClearway(flags).out)["objects"][0];
   };
   const auto p95_m = [](const nlohmann::json& of) {
     return of["reconstruction"]["p95_m"].get<double>();
@@ -155,10 +150,10 @@ TEST(Evaluate, WithWrongLabels) {
 }
 
 TEST(Evaluate, OnlyBySeedsThatAreNumbers) {
-  const Finished dut = Clearway({"evaluate", "sim:small", "--seed", "99999999999999999999"});
+  const Finished dut = RunClearway({"evaluate", "sim:small", "--seed", "99999999999999999999"});
   EXPECT_EQ(dut.exit_code, 2);
   EXPECT_THAT(dut.err, HasSubstr("is too large"));
-  const Finished alone = Clearway({"evaluate", "sim:small", "--wrong-labels-seed", "2"});
+  const Finished alone = RunClearway({"evaluate", "sim:small", "--wrong-labels-seed", "2"});
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_THAT(alone.err, HasSubstr("requires --wrong-labels"));
 }
@@ -166,7 +161,7 @@ TEST(Evaluate, OnlyBySeedsThatAreNumbers) {
 TEST(Evaluate, WithMasksThatAreTooLarge) {
   const auto worst_m = [](const std::string& degrees) {
     const Finished dut =
-        Clearway({"evaluate", "sim:small", "--frames", "10", "--mask-bleed", degrees, "--json"});
+        RunClearway({"evaluate", "sim:small", "--frames", "10", "--mask-bleed", degrees, "--json"});
     const auto json = nlohmann::json::parse(dut.out);
     return json["objects"][0]["size"]["worst_difference_m"].get<double>();
   };
@@ -175,8 +170,8 @@ TEST(Evaluate, WithMasksThatAreTooLarge) {
 
 TEST(Evaluate, WithoutLabels) {
   const auto unlabelled = [](const std::string& life) {
-    const Finished dut = Clearway({"evaluate", "sim:street", "--frames", "40", "--unlabelled",
-                                   "1,2,3", "--dynamic-life", life, "--json"});
+    const Finished dut = RunClearway({"evaluate", "sim:street", "--frames", "40", "--unlabelled",
+                                      "1,2,3", "--dynamic-life", life, "--json"});
     return nlohmann::json::parse(dut.out)["unlabelled"];
   };
   const auto without = unlabelled("0"), with = unlabelled("0.5");
@@ -186,7 +181,7 @@ TEST(Evaluate, WithoutLabels) {
   EXPECT_GT(with["dynamic_voxels"], 0);
   EXPECT_EQ(without["dynamic_voxels"], 0);
   const Finished text =
-      Clearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1,2,3"});
+      RunClearway({"evaluate", "sim:small", "--frames", "5", "--unlabelled", "1,2,3"});
   EXPECT_THAT(text.out, HasSubstr("movers that were not labelled"));
   EXPECT_THAT(text.out, Not(HasSubstr("not\nknown")));
 }
@@ -194,14 +189,14 @@ TEST(Evaluate, WithoutLabels) {
 TEST(Evaluate, OnlyWhatTellsTheTruth) {
   const TemporaryFolder folder;
   const std::string recording = folder / "drive.cwr";
-  const Finished missing = Clearway({"evaluate", recording});
+  const Finished missing = RunClearway({"evaluate", recording});
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_THAT(missing.err, HasSubstr("drive.cwr: no such file"));
-  Clearway({"simulate", "small", "--out", recording, "--frames", "1"});
-  const Finished dut = Clearway({"evaluate", recording});
+  RunClearway({"simulate", "small", "--out", recording, "--frames", "1"});
+  const Finished dut = RunClearway({"evaluate", recording});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("drive.cwr: no frame gives the pose of an object"));
-  const Finished other = Clearway({"evaluate", recording, "--unlabelled", "77"});
+  const Finished other = RunClearway({"evaluate", recording, "--unlabelled", "77"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("drive.cwr has no object 77; it has 1"));
 }
@@ -209,8 +204,8 @@ TEST(Evaluate, OnlyWhatTellsTheTruth) {
 TEST(Evaluate, ARecordingByThePosesThatItGives) {
   const TemporaryFolder folder;
   const std::string recording = folder / "drive.cwr";
-  Clearway({"simulate", "small", "--out", recording, "--frames", "12", "--objects", "poses"});
-  const Finished dut = Clearway({"evaluate", recording, "--json"});
+  RunClearway({"simulate", "small", "--out", recording, "--frames", "12", "--objects", "poses"});
+  const Finished dut = RunClearway({"evaluate", recording, "--json"});
   ASSERT_EQ(dut.exit_code, 0) << dut.err;
   const auto json = nlohmann::json::parse(dut.out);
   EXPECT_THAT(json["truth"], HasSubstr("poses of objects that the recording gives"));
@@ -222,7 +217,7 @@ TEST(Evaluate, ARecordingByThePosesThatItGives) {
     EXPECT_FALSE(object.contains("ways"));
   }
   EXPECT_FALSE(json.contains("ways"));
-  EXPECT_THAT(Clearway({"evaluate", recording}).out, HasSubstr("objects pass are not\nknown"));
+  EXPECT_THAT(RunClearway({"evaluate", recording}).out, HasSubstr("objects pass are not\nknown"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "clients/subprocess.h"
+#include "clients/run_clearway.h"
 #include "support/data_folder.h"
 
 namespace clearway {
@@ -19,9 +19,9 @@ TEST(EvaluateDrive, RegistersScansOnPosesThatDriftUnlessToldOtherwise) {
   const auto folder = DataPath("kitti0000_fov");
   if (!folder) GTEST_SKIP() << "no recorded data";
   const auto parked_m = [&](std::vector<std::string> flags, const auto& truth) {
-    flags.insert(flags.begin(), {CLEARWAY_BINARY, "evaluate", *folder, "--poses", "oxts",
-                                 "--motion", "track", "--rest-distance", "0.6", "--json"});
-    const Finished dut = RunProgram(flags);
+    flags.insert(flags.begin(), {"evaluate", *folder, "--poses", "oxts", "--motion", "track",
+                                 "--rest-distance", "0.6", "--json"});
+    const Finished dut = RunClearway(flags);
     EXPECT_EQ(dut.exit_code, 0) << dut.err;
     const auto json = nlohmann::json::parse(dut.out);
     EXPECT_THAT(json["truth"].get<std::string>(), truth);

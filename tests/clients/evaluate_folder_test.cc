@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "clients/subprocess.h"
+#include "clients/run_clearway.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -62,9 +62,9 @@ class StrangeBoxes {
 };
 
 Finished Evaluated(const StrangeBoxes& folder, const std::vector<std::string>& flags = {}) {
-  std::vector<std::string> arguments = {CLEARWAY_BINARY, "evaluate", folder.path()};
+  std::vector<std::string> arguments = {"evaluate", folder.path()};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
-  return RunProgram(arguments);
+  return RunClearway(arguments);
 }
 
 // What is too large to look at is left out of the tables, and takes no time.

@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "clients/subprocess.h"
+#include "clients/run_clearway.h"
 
 namespace clearway {
 namespace {
 
 nlohmann::json Identities(const std::string& world, int seed, std::vector<std::string> flags) {
-  flags.insert(flags.begin(),
-               {CLEARWAY_BINARY, "evaluate", "sim:" + world, "--seed", std::to_string(seed),
-                "--forget", "0.5", "--motion", "track", "--json"});
-  return nlohmann::json::parse(RunProgram(flags).out)["identities"];
+  flags.insert(flags.begin(), {"evaluate", "sim:" + world, "--seed", std::to_string(seed),
+                               "--forget", "0.5", "--motion", "track", "--json"});
+  return nlohmann::json::parse(RunClearway(flags).out)["identities"];
 }
 
 TEST(EvaluateIdentities, WhatIsKnownAgain) {

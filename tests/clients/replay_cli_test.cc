@@ -58,8 +58,7 @@ TEST_F(CliServer, ARecordingMakesTheSameSceneAsItsSource) {
   const json from_source = Ask({"status", "--hash"});
   const TemporaryFolder folder;
   const std::string file = folder / "small.cwr";
-  RunProgram(
-      {CLEARWAY_BINARY, "simulate", "small", "--frames", std::to_string(kFrames), "--out", file});
+  RunClearway({"simulate", "small", "--frames", std::to_string(kFrames), "--out", file});
   Ask({"reset"});
   EXPECT_EQ(Ask({"replay", file})["applied"], kFrames);
   EXPECT_EQ(Ask({"status", "--hash"})["scene_hash"], from_source["scene_hash"]);

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "clients/subprocess.h"
+#include "clients/run_clearway.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -20,9 +20,8 @@ using ::testing::StartsWith;
 using Flags = std::vector<std::string>;
 
 Finished With(Flags arguments, const Flags& flags) {
-  arguments.insert(arguments.begin(), CLEARWAY_BINARY);
   arguments.insert(arguments.end(), flags.begin(), flags.end());
-  return RunProgram(arguments);
+  return RunClearway(arguments);
 }
 
 // Refused as a usage error that names the first of the flags and says this.

@@ -51,10 +51,10 @@ class TumSequence : public CliServer {
 };
 
 TEST_F(TumSequence, InfoTellsWhatItHolds) {
-  const Finished text = Local({"info", path()});
+  const Finished text = RunClearway({"info", path()});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("TUM RGB-D sequence " + path()));
-  const json info = json::parse(Local({"info", path(), "--json"}).out);
+  const json info = json::parse(RunClearway({"info", path(), "--json"}).out);
   EXPECT_EQ(info["frames"], kFrames);
   EXPECT_EQ(info["points"], kFrames * kWidth * kHeight);
   EXPECT_EQ(info["first_stamp_ns"], 100'000'000'000);
@@ -80,25 +80,25 @@ TEST_F(TumSequence, ReplayMaySendLess) {
 }
 
 TEST_F(TumSequence, EvaluateJudgesByThePosesOfObjects) {
-  const Finished text = Local({"evaluate", path()});
+  const Finished text = RunClearway({"evaluate", path()});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, Not(HasSubstr("true boxes")));  // nobody told their sizes
-  const json found = json::parse(Local({"evaluate", path(), "--json"}).out);
+  const json found = json::parse(RunClearway({"evaluate", path(), "--json"}).out);
   ASSERT_EQ(found["objects"].size(), 1u);
   EXPECT_EQ(found["objects"][0]["id"], 5);
   EXPECT_FALSE(found["objects"][0].contains("size"));
 }
 
 TEST_F(TumSequence, EvaluateRefusesToUnlabelWhatIsNotThere) {
-  const Finished dut = Local({"evaluate", path(), "--unlabelled", "5,6"});
+  const Finished dut = RunClearway({"evaluate", path(), "--unlabelled", "5,6"});
   EXPECT_EQ(dut.exit_code, 2);
   EXPECT_THAT(dut.err, HasSubstr("has no object 6; it has 5"));
-  EXPECT_EQ(Local({"evaluate", path(), "--unlabelled", "5"}).exit_code, 0);
+  EXPECT_EQ(RunClearway({"evaluate", path(), "--unlabelled", "5"}).exit_code, 0);
 }
 
 TEST_F(TumSequence, EvaluateNeedsPosesOfObjects) {
   std::filesystem::remove(folder_ / "object_poses.txt");
-  const Finished dut = Local({"evaluate", path()});
+  const Finished dut = RunClearway({"evaluate", path()});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("no boxes or poses of objects are recorded"));
 }

@@ -48,7 +48,9 @@ TEST_F(CarlaRefusal, TableOfTheSensor) {
   EXPECT_THAT(SensorError("122,12.1,0,0,0,0,0,0\n"), HasSubstr("does not come after"));
   EXPECT_THAT(SensorError("-1,13,0,0,0,0,0,0\n"), HasSubstr("column frame: '-1' is not"));
   EXPECT_THAT(SensorError("122,5e9,0,0,0,0,0,0\n"),
-              HasSubstr("column timestamp: '5e9' is not a number from -4e+09 to 4e+09"));
+              HasSubstr("column timestamp: '5e9' is not a number from 0 to 4e+09"));
+  EXPECT_THAT(SensorError("122,-13,0,0,0,0,0,0\n"),
+              HasSubstr("column timestamp: '-13' is not a number from 0 to 4e+09"));
   EXPECT_THAT(SensorError("122,13,0,nan,0,0,0,0\n"), HasSubstr("column y: 'nan'"));
   EXPECT_THAT(SensorError("122,13,1e7,0,0,0,0,0\n"),
               HasSubstr("column x: '1e7' is not a number from -1e+06 to 1e+06"));

@@ -41,6 +41,7 @@ TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
   EXPECT_THAT(ErrorWith("pose/0000.txt", "0 nan 0 1 0 0 0\n"), HasSubstr("line 1, word 2: 'nan'"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2\n1 3\n"),
               HasSubstr("line 2: landmark 1 occurs twice"));
+  EXPECT_THAT(ErrorWith("landmark_mapping.txt", ""), HasSubstr("no landmark has a cluster"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 -2\n"), HasSubstr("line 1, word 2: '-2'"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
   EXPECT_THAT(ErrorWith("landmarks/left/0000.txt", "1 2\n"), HasSubstr("line 1: 2 words"));
@@ -58,6 +59,19 @@ TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
               HasSubstr("the first matrix is no pinhole's"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"320 0", "320"}})),
               HasSubstr("line 1: 3 words, expected 4 numbers"));
+}
+
+TEST_F(ClusterSlamRefusal, CamerasThatAreSwapped) {
+  const std::string negative = absl::StrReplaceAll(kClusterCameras, {{"-250", "250"}});
+  EXPECT_THAT(ErrorWith("intrinsic.txt", negative),
+              HasSubstr("of none of the 256 landmarks that both cameras see in 8 frames do their "
+                        "rays meet before them"));
+  std::filesystem::rename(folder_ / "landmarks/left", folder_ / "landmarks/other");
+  std::filesystem::rename(folder_ / "landmarks/right", folder_ / "landmarks/left");
+  std::filesystem::rename(folder_ / "landmarks/other", folder_ / "landmarks/right");
+  const absl::Status dut = Open().status();
+  EXPECT_TRUE(absl::IsInvalidArgument(dut)) << dut;
+  EXPECT_THAT(std::string(dut.message()), HasSubstr("are left and right swapped"));
 }
 
 TEST_F(ClusterSlamRefusal, SaysWhatIsMissing) {

@@ -53,10 +53,10 @@ TEST(CsvTable, RefusesMalformedText) {
 }
 
 TEST(CsvTable, NamesAMissingColumn) {
-  const auto dut = CsvTable::Parse("t.csv", "a\n1\n");
+  const auto dut = CsvTable::Parse("t.csv", "a,c\n1,2\n");
   ASSERT_TRUE(dut.ok());
   EXPECT_THAT(std::string(dut->Column("b").status().message()),
-              HasSubstr("t.csv, line 1: no column b"));
+              HasSubstr("t.csv, line 1: no column b; there are a, c"));
 }
 
 TEST(CsvRow, ReadsNumbers) {

@@ -49,11 +49,12 @@ TEST_F(DynosamRefusal, SaysWhatIsMissing) {
 }
 
 TEST_F(DynosamRefusal, SaysWhatIsWrongWithTheCamera) {
-  EXPECT_THAT(ErrorWith("camera_pose", ""), HasSubstr("line 1: no column frame_id"));
+  EXPECT_THAT(ErrorWith("camera_pose", ""),
+              HasSubstr("the file is empty; a header line is expected"));
   EXPECT_THAT(ErrorWith("camera_pose", std::string(kDynosamCamera) + "\n"),
               HasSubstr("no pose under the header"));
   EXPECT_THAT(ErrorWith("camera_pose", DynosamLog("frame_id,x,y,z,roll,pitch,yaw", {})),
-              HasSubstr("line 1: no column tx"));
+              HasSubstr("line 1: no column tx; there are frame_id, x, y, z, roll, pitch, yaw"));
   EXPECT_THAT(ErrorWithCamera("2,0,0,0.2,0,0"), HasSubstr("line 3: 13 fields; the header has 15"));
   EXPECT_THAT(ErrorWithCamera("1,0,0,0.2,0,0,0,1"),
               HasSubstr("line 3: frame 1 at 100000000 ns does not come after frame 1"));
