@@ -13,6 +13,7 @@
 #include "cli/progress.h"
 #include "cli/server_flags.h"
 #include "cli/text.h"
+#include "cli/told_frames.h"
 #include "cli/values.h"
 
 namespace clearway::cli {
@@ -21,12 +22,14 @@ namespace {
 constexpr char kExamples[] =
     "  clearway replay crossing.cwr\n"
     "  clearway replay sim:street --noise table1 --rate 1\n"
+    "  clearway replay sim:occlusions --seed 3 --forget 0.5\n"
     "  clearway replay ~/data/kitti0000_fov --poses icp --from 0 --to 59\n"
     "  clearway replay ~/data/rgbd_dataset_freiburg3_walking_xyz --stride 2 --max-depth 5";
 
 struct Flags {
   ServerFlags server;
   SourceFlags source;
+  ErrorFlags errors;
   std::string spec;
   std::optional<double> rate;
   std::size_t from = 0;
@@ -63,12 +66,13 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
                      const Flags& flags, FrameSender& sender, AckTally& tally,
                      ProgressBar& progress) {
   Pace pace(flags.rate);
+  FrameTeller teller(flags.errors);
   for (std::size_t i = first; i < end; ++i) {
     const auto frame = source.read(i);
     if (!frame.ok()) return frame.status();
     pace.WaitFor(frame->stamp);
     tally.Sent(frame->points_S.size());
-    if (const absl::Status status = sender.Send(*frame); !status.ok()) return status;
+    if (const absl::Status status = sender.Send(teller.Tell(*frame)); !status.ok()) return status;
     if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
     progress.Update(tally.counts().answered, tally.counts().points);
   }
@@ -201,6 +205,7 @@ void AddReplay(Cli& cli) {
                     "Go on after a refused frame (the exit code is 1 still)");
   command->add_flag("-q,--quiet", flags->quiet, "No progress on stderr");
   command->add_flag("--json", flags->json, "Print a summary as JSON");
+  AddErrorFlags(command, &flags->errors);
   AddSourceFlags(command, &flags->source);
   AddServerFlags(command, &flags->server);
 }

@@ -1,6 +1,7 @@
 // clearway replay against a real server.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -43,6 +44,29 @@ TEST_F(CliServer, ReplayTakesARange) {
   const Finished beyond = Clearway({"replay", "sim:small", "--to", "100000"});
   EXPECT_EQ(beyond.exit_code, 2);
   EXPECT_THAT(beyond.err, HasSubstr("ends at frame"));
+}
+
+TEST_F(CliServer, ReplayWithErrorsOfTheSource) {
+  Ask({"replay", "sim:small", "--frames", "4", "--unlabelled", "1"});
+  const json objects = Ask({"objects"})["objects"];
+  ASSERT_FALSE(objects.empty());
+  for (const json& object : objects) EXPECT_NE(object["id"], 1);
+  EXPECT_EQ(Clearway({"replay", "sim:small", "--wrong-labels", "2"}).exit_code, 2);
+}
+
+TEST(ReplayCli, WhatComesBackUnderANewIdKeepsItsOldOne) {
+  const ServerProcess server({"--scene-reidentify", "true", "--scene-motion", "track"});
+  const auto on_server = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--json", "--server", server.address()});
+    const Finished dut = RunClearway(arguments);
+    EXPECT_EQ(dut.exit_code, 0) << dut.err;
+    return json::parse(dut.out);
+  };
+  on_server({"replay", "sim:swaps", "--seed", "1", "--forget", "0.5", "--quiet"});
+  const json objects = on_server({"objects"})["objects"];
+  EXPECT_TRUE(std::ranges::any_of(objects, [](const json& object) {
+    return !object["other_ids"].empty();
+  })) << objects;
 }
 
 TEST_F(CliServer, ReplayStopsAtARefusedFrame) {
