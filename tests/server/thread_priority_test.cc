@@ -37,6 +37,7 @@ TEST(ThreadPriority, ShortTurnsPassToThreadsStartedLater) {
 
 TEST(ThreadPriority, OneThreadAloneGivesWay) {
   const int before = Niceness();
+  if (before + 2 > 19) GTEST_SKIP() << "this test itself hardly counts";
   std::thread([&] {
     GiveWay(before + 2);
     EXPECT_EQ(Niceness(), before + 2);
