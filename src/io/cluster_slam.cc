@@ -73,7 +73,8 @@ absl::StatusOr<ClusterPoints> ReadPoints(const Sequence& sequence, int frame) {
   return points;
 }
 
-// Of cameras that are swapped no rays meet. Looks at frames that are spread over the sequence.
+// Of cameras that are swapped no rays meet before them. Looks at frames that are spread over the
+// sequence.
 absl::Status CheckCameras(const Sequence& sequence) {
   constexpr std::size_t kMostFrames = 20, kFewest = 8;
   const std::size_t frames = std::min(kMostFrames, sequence.poses.size());
@@ -89,9 +90,8 @@ absl::Status CheckCameras(const Sequence& sequence) {
   }
   if (count < kFewest) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(
-      sequence.folder.string(), ": of none of the ", count, " landmarks that both cameras see in ",
-      frames,
-      " frames do their rays meet before them, a pixel apart or more: are left and right "
+      sequence.folder.string(), ": of the ", count, " landmarks that both cameras see in ", frames,
+      " frames none lies before them, with a disparity of a pixel or more: are left and right "
       "swapped, in landmarks or in intrinsic.txt?"));
 }
 
@@ -155,11 +155,11 @@ std::string Described(const std::string& name, const Sequence& sequence, const C
                           *fit.static_px);
   }
   if (fit.moving_px) absl::StrAppendFormat(&text, ", those that move %.1f", *fit.moving_px);
-  const auto add = [&text](std::size_t count, const char* what) {
-    if (count > 0) absl::StrAppend(&text, "; ", count, what);
+  const auto add = [&text](const char* what, std::size_t count) {
+    if (count > 0) absl::StrAppend(&text, "; ", what, ": ", count);
   };
-  add(FramesLeftOut(sequence), " frames of landmarks without poses are left out");
-  add(WithoutPoses(sequence), " clusters of landmark_mapping.txt have no poses");
+  add("frames of landmarks without poses, left out", FramesLeftOut(sequence));
+  add("clusters of landmark_mapping.txt without poses", WithoutPoses(sequence));
   return text;
 }
 

@@ -64,8 +64,8 @@ TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
 TEST_F(ClusterSlamRefusal, CamerasThatAreSwapped) {
   const std::string negative = absl::StrReplaceAll(kClusterCameras, {{"-250", "250"}});
   EXPECT_THAT(ErrorWith("intrinsic.txt", negative),
-              HasSubstr("of none of the 256 landmarks that both cameras see in 8 frames do their "
-                        "rays meet before them"));
+              HasSubstr("of the 256 landmarks that both cameras see in 8 frames none lies before "
+                        "them, with a disparity of a pixel or more"));
   std::filesystem::rename(folder_ / "landmarks/left", folder_ / "landmarks/other");
   std::filesystem::rename(folder_ / "landmarks/right", folder_ / "landmarks/left");
   std::filesystem::rename(folder_ / "landmarks/other", folder_ / "landmarks/right");

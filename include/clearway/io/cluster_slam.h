@@ -41,8 +41,10 @@ bool IsClusterSlam(const std::filesystem::path& folder);
 // (dynosam/src/dataprovider/ClusterSlamDataProvider.cc), found w, x, y, z in them. So the order is
 // that with which static landmarks stay where they are: a sample of them, moved by the poses of two
 // frames, is projected into the second and compared with what was seen there. INVALID_ARGUMENT if
-// neither fits (a median above 10 pixels), or if landmarks of moving clusters do not go with their
-// poses, unless `objects` is kNone. Other errors as OpenLidarFolder's.
+// neither fits (a median above 10 pixels), if landmarks of moving clusters do not go with their
+// poses, unless `objects` is kNone, or if of those that both cameras see none lies before them.
+// `description` tells the order, the medians and what has no poses. Other errors as
+// OpenLidarFolder's.
 absl::StatusOr<LidarFolder> OpenClusterSlam(const std::filesystem::path& folder,
                                             const ClusterSlamOptions& options = {});
 
