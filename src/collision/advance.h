@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "collision/separation.h"
+#include "collision/touching.h"
 
 namespace clearway {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
-// What is this close counts as touched. Half of it is always kept, so that times and poses may be
-// rounded.
-inline constexpr double kTouching_m = 1e-7, kKept_m = 0.5e-7;
 inline constexpr int kMostAdvances = 24;
 
 // From one share of a way to another, by gaps: gap_m(share) is at most the gap at that share of the
@@ -39,8 +37,9 @@ double AdvanceAlong(const Eigen::Vector3d& way_F, double margin_m, double from, 
   for (int step = 0; step < kMostAdvances && share <= until; ++step) {
     const Separation here = apart(share);
     const double gap_m = here.gap_m - margin_m, used_m = here.direction.dot(way_F);
+    const double left_m = gap_m - kKept_m;
+    if (left_m > 0 && left_m > (until - share) * used_m) return kNever;
     if (!(gap_m > kTouching_m)) return share;  // not a number: as bad as none
-    if (gap_m - kKept_m > (until - share) * used_m) return kNever;
     share += (gap_m - kKept_m) / used_m;
   }
   return share > until ? kNever : share;

@@ -43,8 +43,8 @@ class SurfaceContact {
         margin_m_(margin_m) {
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
-      around_G_.max[axis] = farthest_G_(along)[axis] + margin_m;
-      around_G_.min[axis] = farthest_G_(-along)[axis] - margin_m;
+      around_G_.max[axis] = farthest_G_(along)[axis] + margin_m + kTouching_m;
+      around_G_.min[axis] = farthest_G_(-along)[axis] - margin_m - kTouching_m;
     }
   }
   SurfaceContact(const SurfaceContact&) = delete;
@@ -114,7 +114,7 @@ class SurfaceContact {
   SeenFromG farthest_G_;
   ConvexBody body_G_;  // refers to it
   double margin_m_;
-  Aabb around_G_;  // the body and the margin
+  Aabb around_G_;  // the body, the margin and what touches
 };
 
 }  // namespace
@@ -138,10 +138,16 @@ double FirstTouchOf(const Sweep& sweep, const ConvexBody& body_F, double beyond_
   const PlacedShape& shape_F = sweep.shape_F;
   const ShapeGeometry& geometry = shape_F.geometry();
   const double margin_m = sweep.margin_m + beyond_m + geometry.core_radius_m();
-  const double share = FirstTouchOf({CoreOf{shape_F}, shape_F.Center_F()}, sweep.way_F, body_F,
-                                    margin_m, from, until);
+  // To spread the shape is to spread the body: what spreads is its own mirror image.
+  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
+    return body_F.farthest(direction_F) + sweep.spread_F.Farthest(direction_F);
+  };
+  const ConvexBody spread_body_F = {
+      sweep.spread_F.empty() ? body_F.farthest : FarthestPoint(farthest_F), body_F.center};
+  const double share = FirstTouchOf({CoreOf{shape_F}, shape_F.Center_F()}, sweep.way_F,
+                                    spread_body_F, margin_m, from, until);
   if (share == kNever || geometry.convex() || !geometry.prepared()->closed()) return share;
-  const SurfaceContact surface(shape_F, sweep.way_F, body_F, margin_m);
+  const SurfaceContact surface(shape_F, sweep.way_F, spread_body_F, margin_m);
   return surface.HoldsBody(share) ? share : surface.FirstTouch(share, until);
 }
 

@@ -12,8 +12,8 @@ namespace clearway {
 std::optional<bool> Meets(const PlacedShape& shape_F, const ConvexBody& body_F, double margin_m);
 
 // Before which share of the sweep's way, from the share `from` on, its shape is farther from the
-// body than its margin and `beyond_m`; kNever if that is so up to `until`. A mesh that is not
-// closed counts as its convex hull here: what may be inside it has no surface all round.
+// body than its margin, its spread and `beyond_m`; kNever if that is so up to `until`. A mesh that
+// is not closed counts as its convex hull here: what may be inside it has no surface all round.
 double FirstTouchOf(const Sweep& sweep, const ConvexBody& body_F, double beyond_m, double from,
                     double until);
 

@@ -94,8 +94,8 @@ CenterMasks::CenterMasks(const VoxelGrid& grid, const Sweep& sweep)
 }
 
 void CenterMasks::MakeRows(const TurnedBox& box) {
-  const Polytope perhaps = MayBeIn(box, sweep_.way_F, sweep_.margin_m + kRounding_m);
-  const Polytope surely = SurelyIn(box, sweep_.way_F, sweep_.margin_m + kRounding_m);
+  const Polytope perhaps = MayBeIn(box, sweep_.way_F, sweep_.LargestMargin() + kRounding_m);
+  const Polytope surely = SurelyIn(box, sweep_.way_F, sweep_.LargestMargin() + kRounding_m);
   const double per_m = 1 / grid_.resolution_m(), first_x = grid_.CenterOf(keys_->min).x();
   const double most = keys_->max.x - keys_->min.x;
   // Of keys from the lowest one on.
@@ -153,7 +153,7 @@ void CenterMasks::AddRows(BlockKey block, Masks& masks) const {
 bool CenterMasks::Perhaps(const Eigen::Vector3d& center_W) const {
   const PlacedShape& shape_W = sweep_.shape_F;
   const Eigen::Vector3d& way_W = sweep_.way_F;
-  const double margin_m = sweep_.margin_m;
+  const double margin_m = sweep_.LargestMargin();
   if (contact_.Apart(center_W, 0)) {
     const double share = AdvanceAlong(way_W, margin_m, 0, 1, [&](double at) {
       return *contact_.Apart(center_W - at * way_W, 0);
@@ -172,7 +172,7 @@ bool CenterMasks::Perhaps(const Eigen::Vector3d& center_W) const {
 bool CenterMasks::Surely(const Eigen::Vector3d& center_W) const {
   const PlacedShape& shape_W = sweep_.shape_F;
   const Eigen::Vector3d& way_W = sweep_.way_F;
-  const double margin_m = sweep_.margin_m;
+  const double margin_m = sweep_.LargestMargin();
   const double radius_m = margin_m + kRounding_m;
   if (!shape_W.geometry().convex()) {
     return shape_W.Holds(center_W - 0.5 * way_W, radius_m + 0.5 * way_W.norm());

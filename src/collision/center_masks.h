@@ -14,8 +14,8 @@
 namespace clearway {
 
 // Tells of the centres of voxels whether a shape may hold them somewhere on its way, and whether it
-// surely does all along, if no point of it ever is farther than the sweep's margin from where the
-// way puts it. In W. Of a box a row of voxels along x is told at once. Refers to the
+// surely does all along, if no point of it ever is farther than the sweep's largest margin from
+// where the way puts it. In W. Of a box a row of voxels along x is told at once. Refers to the
 // sweep.
 class CenterMasks {
  public:

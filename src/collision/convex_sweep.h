@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "collision/advance.h"
 #include "collision/separation.h"
@@ -25,7 +26,8 @@ inline double FirstTouchOf(const ConvexBody& moving, const Eigen::Vector3d& way,
         },
         standing.farthest, look, margin_m,
         [&](const Separation& found) {
-          return found.gap_m - margin_m - kKept_m > (until - share) * found.direction.dot(way);
+          const double used_m = (until - share) * found.direction.dot(way);
+          return found.gap_m - margin_m - kKept_m > std::max(0.0, used_m);
         });
     look = apart.direction;
     return apart;

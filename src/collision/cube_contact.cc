@@ -6,6 +6,7 @@
 
 #include "clearway/geometry/distance.h"
 #include "collision/prepared_mesh.h"
+#include "collision/touching.h"
 
 namespace clearway {
 
@@ -13,7 +14,7 @@ CubeContact::CubeContact(const PlacedShape& shape, double margin_m)
     : shape_(shape), line_(shape.AsRoundedLine()), box_(shape.AsBox()), mesh_(shape.AsMesh()) {
   radius_m_ = line_ ? line_->radius_m : 0;
   const double reach_m = margin_m + radius_m_;
-  sharp_ = reach_m == 0;
+  sharp_ = reach_m <= kContact_m;
   near_m_ = std::max(reach_m - kRounding_m, 0.0);
   far_m_ = reach_m + kRounding_m;
 }

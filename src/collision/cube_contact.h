@@ -82,7 +82,7 @@ class CubeContact {
   std::optional<RoundedLine> line_;
   std::optional<TurnedBox> box_;
   const PreparedMesh* mesh_;
-  bool sharp_;       // neither rounded nor with a margin
+  bool sharp_;       // neither rounded nor with a margin beyond contact
   double radius_m_;  // of a rounded line
   // A cube certainly touches if it is as near as near_m_ to the line or to the shape, and does not
   // beyond far_m_.

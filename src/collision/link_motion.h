@@ -25,6 +25,8 @@ class LinkMotion {
   }
   double speed_mps() const { return speed_mps_; }    // of the origin
   double spin_radps() const { return spin_radps_; }  // about the origin
+  Eigen::Vector3d AxisInL() const { return turn_.axis(); }
+  Eigen::Vector3d AxisInW() const { return from_.rotation * turn_.axis(); }
 
  private:
   Pose from_;

@@ -14,7 +14,7 @@ constexpr double kLooseBy_m = 0.15;
 // One that stands still may be any length, and meets what comes by in that time.
 constexpr std::chrono::seconds kFirst{2};
 // How much shorter than the resolution of contacts spans may get, and how many a leg may take.
-constexpr int kFiner = 64, kMostSpans = 1000;
+constexpr int kFiner = 64, kMostSpans = 10'000;
 
 Duration Seconds(double seconds) {
   constexpr double kLongest_s = 1e9;

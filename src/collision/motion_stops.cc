@@ -92,7 +92,7 @@ double MotionStops::MostUnknownShare(const TimeSpan& span) const {
 void MotionStops::StopAtObjects(const MovingPart& part, const MovingPart::Passage& passage,
                                 MotionStop& stop) const {
   const Aabb box_W = part.InWorld(passage, options_.padding_m).sweep.Box();
-  MovingBall ball = part.BallAround(passage, options_.padding_m);
+  MovingBall ball = part.BallAround(passage, options_.padding_m + kTouching_m);
   ball.from = context_.WorldTime(ball.from);
   ball.until = context_.WorldTime(ball.until);
   context_.index.ForEachNear(box_W, ball.from, ball.until, options_.growth(), [&](std::size_t i) {

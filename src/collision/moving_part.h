@@ -7,6 +7,7 @@
 #include "collision/object_motion_piece.h"
 #include "collision/robot_geometry.h"
 #include "collision/sweep.h"
+#include "collision/turn_bound.h"
 
 namespace clearway {
 
@@ -22,7 +23,7 @@ struct TimeSpan {
   }
 };
 
-// A sweep, and by how much its margin exceeds what is asked for: what the shape strays from the
+// A sweep, and by how much it is larger than what is asked for: what the shape strays from the
 // sweep's straight way and turns away from its one orientation.
 struct LooseSweep {
   Sweep sweep;
@@ -30,11 +31,13 @@ struct LooseSweep {
 };
 
 // One shape of a link on one leg of a motion. Its centre is carried along the chord of its way, as
-// it is turned in the middle of the span; what a point strays from that goes to the margin: with an
-// acceleration of at most `a`, the way strays from its chord by no more than a t^2 / 8. Against an
-// object, this is done as seen from the object (Schwarzer, Saha and Latombe, "Adaptive Dynamic
-// Collision Checking for Single and Multiple Articulated Robots in Complex Environments", 2005,
-// bound motions likewise). Refers to what it is made of.
+// it is turned in the middle of the span; what a point strays from that goes to the sweep's spread:
+// with an acceleration of at most `a`, the way strays from its chord by no more than a t^2 / 8, and
+// across the axis alone about which it turns. Against an object, this is done as seen from the
+// object. (Schwarzer, Saha and Latombe, "Adaptive Dynamic Collision Checking for Single and
+// Multiple Articulated Robots in Complex Environments", 2005, bound motions likewise; Zhang, Redon,
+// Lee and Kim, "Continuous Collision Detection for Articulated Models using Taylor Models and
+// Temporal Culling", 2007, section 5, by direction.) Refers to what it is made of.
 class MovingPart {
  public:
   // The link moves from `leg`.from to `leg`.until.
@@ -43,15 +46,16 @@ class MovingPart {
 
   int link() const { return link_; }
   double center_mps() const { return center_mps_; }  // at most
-  // Of any point, seen from the centre: at most.
-  double turning_mps() const { return radius_m_ * motion_->spin_radps(); }
+  // Of the shape, seen from the centre: at most.
+  double turning_mps() const { return turn_.larger_m() * motion_->spin_radps(); }
 
   // What a span of the leg is, whatever it is seen from.
   struct Passage {
     TimeSpan span;
     Eigen::Vector3d from_W, until_W;  // the centre
     Eigen::Quaterniond R_W_L;         // in the middle
-    double strays_m, turns_m;         // seen from W
+    double turned_rad;                // from the middle, at most
+    double strays_m;                  // the centre from its chord, across the axis
   };
   Passage During(const TimeSpan& span) const;
 
@@ -64,8 +68,10 @@ class MovingPart {
 
  private:
   Pose LinkAt(Time t) const { return motion_->At(ToSeconds(t - leg_.from) / leg_.seconds()); }
+  // `strays_m`: in any direction, beyond the spread.
   LooseSweep SweepOf(const Eigen::Vector3d& from_F, const Eigen::Vector3d& until_F,
-                     const Eigen::Quaterniond& R_F_L, double margin_m, double slack_m) const;
+                     const Eigen::Quaterniond& R_F_L, double margin_m, double strays_m,
+                     const Spread& spread_F) const;
 
   int link_;
   const LinkMotion* motion_;
@@ -73,10 +79,12 @@ class MovingPart {
   const ShapeGeometry* geometry_;
   Pose T_L_G_;
   Eigen::Vector3d center_L_;
-  double radius_m_;  // how far turning about the centre moves a point, at most, a radian
+  Eigen::Vector3d axis_W_;  // of the link's turn
+  double radius_m_;         // of a ball about the centre that holds the shape
+  TurnBound turn_;          // the link's
   double deviation_m_;
   double center_mps_;   // at most
-  double center_mps2_;  // its acceleration
+  double center_mps2_;  // its acceleration, across the axis
 };
 
 }  // namespace clearway

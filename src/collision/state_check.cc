@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision/touching.h"
 #include "collision/unknown_share.h"
 #include "collision/voxel_contact.h"
 #include "collision/voxel_distance.h"
@@ -18,6 +19,7 @@ StateCheck::StateCheck(const CheckContext& context, const RobotGeometry& robot)
   const double limit_m = context.scene.static_map_W.grid().limit_m();
   bounds_W_.min = bounds_W_.min.cwiseMax(-limit_m);
   bounds_W_.max = bounds_W_.max.cwiseMin(limit_m);
+  bounds_W_ = bounds_W_.Padded(kContact_m);
 }
 
 void StateCheck::Place(const Pose* T_W_L) {
@@ -40,7 +42,7 @@ void StateCheck::Place(const Pose* T_W_L) {
 Aabb StateCheck::SearchedBox() const {
   Aabb box_W;
   for (const PlacedShape& shape : shapes_W_) box_W.Extend(shape.box_F());
-  return box_W.Padded(context_.options.padding_m + context_.options.clearance_up_to_m.value_or(0));
+  return box_W.Padded(ContactMargin() + context_.options.clearance_up_to_m.value_or(0));
 }
 
 std::span<const PlacedShape> StateCheck::ShapesOf(int link) const {
@@ -118,7 +120,7 @@ bool StateCheck::Unobserved(StateAnswer& answer) const {
   const VoxelMap& map = context_.scene.static_map_W;
   for (int link = 0; link < links(); ++link) {
     for (const PlacedShape& shape : ShapesOf(link)) {
-      if (TouchesUnobserved(map, shape, context_.options.known_free_W, context_.options.padding_m,
+      if (TouchesUnobserved(map, shape, context_.options.known_free_W, ContactMargin(),
                             context_.cancelled)) {
         return Blame(link, kStaticLabel, answer);
       }
@@ -157,27 +159,29 @@ double StateCheck::Clearance() const {
   return std::max(0.0, nearest_m - padding_m);
 }
 
+double StateCheck::ContactMargin() const { return context_.options.padding_m + kContact_m; }
+
 bool StateCheck::Allowed(int link, ObjectId object) const {
   return context_.allowed_contacts.contains({link, object});
 }
 
 bool StateCheck::TouchesStatic(int link) const {
-  const double padding_m = context_.options.padding_m;
+  const double margin_m = ContactMargin();
   for (const PlacedShape& shape : ShapesOf(link)) {
     for (const Aabb& box_W : context_.scene.params.keep_out_W) {
-      if (shape.DistanceTo(box_W, padding_m) <= padding_m) return true;
+      if (shape.DistanceTo(box_W, margin_m) <= margin_m) return true;
     }
-    if (TouchesOccupied(context_.scene.static_map_W, shape, padding_m)) return true;
+    if (TouchesOccupied(context_.scene.static_map_W, shape, margin_m)) return true;
   }
   return false;
 }
 
 bool StateCheck::TouchesObject(int link, const PlacedObject& object) const {
   if (Allowed(link, object.object->id)) return false;
-  const double padding_m = context_.options.padding_m;
+  const double margin_m = ContactMargin();
   for (const PlacedShape& shape : ShapesOf(link)) {
-    if (!shape.box_F().Padded(padding_m).Intersects(object.box_W)) continue;
-    if (Touches(object, shape, padding_m)) return true;
+    if (!shape.box_F().Padded(margin_m).Intersects(object.box_W)) continue;
+    if (Touches(object, shape, margin_m)) return true;
   }
   return false;
 }

@@ -55,6 +55,7 @@ class StateCheck {
   double UnknownShare() const;
   double Clearance() const;
 
+  double ContactMargin() const;  // what is no farther is in contact
   bool Allowed(int link, ObjectId object) const;
   bool TouchesStatic(int link) const;
   bool TouchesObject(int link, const PlacedObject& object) const;

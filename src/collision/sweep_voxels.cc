@@ -6,6 +6,7 @@
 #include "collision/body_contact.h"
 #include "collision/cube_contact.h"
 #include "collision/sweep.h"
+#include "collision/voxel_contact.h"
 
 namespace clearway {
 namespace {
@@ -20,7 +21,9 @@ class Search {
         contact_(sweep.shape_F, 0),
         directions_(contact_.Apart(Eigen::Vector3d::Zero(), 0).has_value()),
         length_m_(sweep.way_F.norm()),
-        until_(until) {}
+        until_(until) {
+    for (const auto& [axis, radius_m] : sweep.spread_F.discs()) AddDirection(axis);
+  }
 
   // Before which share none of the block's voxels is touched; kNever if none is before what is
   // found so far.
@@ -65,15 +68,55 @@ class Search {
     return Touched(center, half_m);
   }
 
+  // A direction, and how far the shape reaches along it where it begins, its spread included.
+  struct Reach {
+    Eigen::Vector3d direction;
+    double reach_m;
+  };
+
+  // The axis of a turn, along which the turn moves nothing, both ways.
+  void AddDirection(const Eigen::Vector3d& axis) {
+    const PlacedShape& shape = sweep_.shape_F;
+    for (const Eigen::Vector3d& direction : {axis, Eigen::Vector3d(-axis)}) {
+      along_axes_.push_back({direction, direction.dot(shape.FarthestOfCore(direction)) +
+                                            shape.geometry().core_radius_m() +
+                                            sweep_.spread_F.Along(direction)});
+    }
+  }
+
+  // Along which of the axes the cube is farthest beyond the shape.
+  Separation ApartAlongAxes(const Eigen::Vector3d& center, double half_m) const {
+    Separation best;
+    for (const auto& [direction, reach_m] : along_axes_) {
+      const double gap_m = direction.dot(center) - half_m * direction.cwiseAbs().sum() - reach_m;
+      if (gap_m - kRounding_m > best.gap_m) best = {direction, gap_m - kRounding_m};
+    }
+    return best;
+  }
+
+  Separation Apart(const Eigen::Vector3d& center, double half_m) const {
+    Separation apart = *contact_.Apart(center, half_m);
+    apart.gap_m -= sweep_.spread_F.Along(apart.direction);
+    if (along_axes_.empty() || apart.gap_m - sweep_.margin_m > kTouching_m) return apart;
+    const Separation along = ApartAlongAxes(center, half_m);
+    return along.gap_m > apart.gap_m ? along : apart;
+  }
+
   // By what is quick.
   double Touched(const Eigen::Vector3d& center, double half_m) const {
     if (directions_) {
       return AdvanceAlong(sweep_.way_F, sweep_.margin_m, 0, until_, [&](double share) {
-        return *contact_.Apart(center - share * sweep_.way_F, half_m);
+        return Apart(center - share * sweep_.way_F, half_m);
       });
     }
+    if (!along_axes_.empty()) {
+      const Separation along = ApartAlongAxes(center, half_m);
+      const double used_m = std::max(0.0, until_ * along.direction.dot(sweep_.way_F));
+      if (along.gap_m - sweep_.margin_m - kKept_m > used_m) return kNever;
+    }
     return Advance(length_m_, 0, until_, [&](double share) {
-      return contact_.DistanceTo(center - share * sweep_.way_F, half_m).least_m - sweep_.margin_m;
+      return contact_.DistanceTo(center - share * sweep_.way_F, half_m).least_m -
+             sweep_.LargestMargin();
     });
   }
 
@@ -92,10 +135,13 @@ class Search {
     until_ = std::nextafter(found_.share, -1.0);
   }
 
+  static constexpr double kRounding_m = 1e-9;
+
   const VoxelGrid& grid_;
   const Sweep& sweep_;
   CubeContact contact_;  // without the margin
-  bool directions_;      // are known for cubes
+  absl::InlinedVector<Reach, 4> along_axes_;
+  bool directions_;  // are known for cubes
   double length_m_;
   double until_;
   FirstTouch found_;
@@ -112,6 +158,9 @@ FirstTouch TouchOccupied(const VoxelMap& map_F, const Sweep& sweep, double until
   };
   KeyRange keys;
   if (!KeysTouching(map_F.grid(), sweep.Box(), keys)) return {};
+  if (sweep.AtRest() && !TouchesOccupied(map_F, sweep.shape_F, sweep.margin_m + kContact_m)) {
+    return {};
+  }
   Search search(map_F.grid(), sweep, until);
   absl::InlinedVector<Candidate, 64> candidates;
   map_F.blocks().AnyOccupiedIn(BlockOf(keys.min), BlockOf(keys.max),
@@ -133,6 +182,10 @@ FirstTouch TouchUnobserved(const VoxelMap& map_F, const std::vector<Aabb>& known
                            const Sweep& sweep, double until, const Cancelled& cancelled) {
   KeyRange keys;
   if (!KeysTouching(map_F.grid(), sweep.Box(), keys)) return {};
+  if (sweep.AtRest() && !TouchesUnobserved(map_F, sweep.shape_F, known_free_F,
+                                           sweep.margin_m + kContact_m, cancelled)) {
+    return {};
+  }
   Search search(map_F.grid(), sweep, until);
   constexpr int kBlocksToAsk = 64;  // to ask takes as long as to look
   std::int64_t blocks = 0;

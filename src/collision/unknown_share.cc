@@ -112,7 +112,7 @@ bool MayBeCenteredInUnknown(const VoxelMap& map, const std::vector<Aabb>& known_
     Aabb centers{center, center};
     centers.Extend(center + sweep.way_F);
     KeyRange keys;
-    if (!KeysTouching(map.grid(), centers.Padded(sweep.margin_m), keys)) return true;
+    if (!KeysTouching(map.grid(), centers.Padded(sweep.LargestMargin()), keys)) return true;
     const bool any =
         AnyBlock(map.blocks(), BlockOf(keys.min), BlockOf(keys.max),
                  [&](BlockKey key, const VoxelBlock* block) {
