@@ -22,6 +22,7 @@
 #include "clearway/client/remote_checker.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/client/scene_mirror.h"
+#include "clearway/collision/plan_task.h"
 #include "clearway/collision/scene_checker.h"
 #include "clearway/planning/path_check.h"
 #include "clearway/planning/space_time_setup.h"
@@ -151,7 +152,7 @@ absl::StatusOr<std::vector<TimedPose>> Plan(const CrossingTask& task, const Chec
   const auto space = Space(task);
   const PlanningOptions options = WhatIsFree();
   Ground ground;
-  ground.clearance_m = options.check.padding_m + 0.1;  // one voxel
+  ground.clearance_m = DefaultGroundClearance(SceneParams{}.resolution_m, options.check.padding_m);
   const auto mapping = StateMapping::Se2(checker->robot(), ground, TimeSince{checker->stamp()});
 
   ob::ScopedState<> start(space), goal(space);

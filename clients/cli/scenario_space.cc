@@ -11,12 +11,16 @@ absl::StatusOr<PlaneSpace> ParsePlane(const JsonFields& fields) {
   const auto turns = fields.FlagOr("turns", true);
   if (!turns.ok()) return turns.status();
   plane.turns = *turns;
-  for (const auto& [name, number] : {std::pair{"yaw_rad", &plane.yaw_rad},
-                                     {"ground_z_m", &plane.ground_z_m},
-                                     {"clearance_m", &plane.clearance_m}}) {
+  for (const auto& [name, number] :
+       {std::pair{"yaw_rad", &plane.yaw_rad}, {"ground_z_m", &plane.ground_z_m}}) {
     const auto read = fields.NumberOr(name, *number);
     if (!read.ok()) return read.status();
     *number = *read;
+  }
+  if (fields.Has("clearance_m")) {
+    const auto read = fields.Number("clearance_m");
+    if (!read.ok()) return read.status();
+    plane.clearance_m = *read;
   }
   return plane;
 }
@@ -40,6 +44,11 @@ absl::StatusOr<Joint> ParseJoint(const Json& value, const std::string& path) {
     const auto read = fields->Number(name);
     if (!read.ok()) return read.status();
     *number = *read;
+  }
+  if (joint.min_rad > joint.max_rad) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": min_rad is ", joint.min_rad,
+                                                   "; it must be at most max_rad, which is ",
+                                                   joint.max_rad));
   }
   return joint;
 }

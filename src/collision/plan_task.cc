@@ -41,10 +41,17 @@ absl::Status CheckJoint(const std::string& field, const Joint& joint) {
       !status.ok()) {
     return status;
   }
-  if (auto status = CheckWithin(field + ".max_rad", joint.max_rad, joint.min_rad, kMostAngle_rad);
+  if (auto status = CheckWithin(field + ".max_rad", joint.max_rad, -kMostAngle_rad, kMostAngle_rad);
       !status.ok()) {
     return status;
   }
+  if (joint.min_rad > joint.max_rad) {
+    return absl::InvalidArgumentError(absl::StrCat(field, ": min_rad is ", joint.min_rad,
+                                                   "; it must be at most max_rad, which is ",
+                                                   joint.max_rad));
+  }
+  const bool locked = joint.min_rad == joint.max_rad;
+  if (locked && joint.max_radps == 0) return absl::OkStatus();
   return CheckLimit(field + ".max_radps", joint.max_radps);
 }
 
@@ -52,7 +59,7 @@ absl::Status CheckSpace(const ConfigurationSpace& space, const Robot& robot) {
   if (const auto* plane = std::get_if<PlaneSpace>(&space)) {
     for (const auto& [field, value] : {std::pair{"plane.yaw_rad", plane->yaw_rad},
                                        {"plane.ground_z_m", plane->ground_z_m},
-                                       {"plane.clearance_m", plane->clearance_m}}) {
+                                       {"plane.clearance_m", plane->clearance_m.value_or(0)}}) {
       if (auto status = CheckWithin(field, value, -kMost_m, kMost_m); !status.ok()) return status;
     }
   }
@@ -79,10 +86,10 @@ absl::Status CheckArea(const PlanTask& task) {
   const int axes = std::holds_alternative<PlaneSpace>(task.space) ? 2 : 3;
   for (int axis = 0; axis < axes; ++axis) {
     const double low = task.area_W.min[axis], high = task.area_W.max[axis];
-    if (low >= -kMost_m && low < high && high <= kMost_m) continue;
+    if (low >= -kMost_m && low <= high && high <= kMost_m) continue;
     return Invalid(absl::StrCat("area.", std::string(1, static_cast<char>('x' + axis))),
                    absl::StrCat("is from ", low, " to ", high,
-                                "; the first must be below the second, both within ", kMost_m));
+                                "; the first must be at most the second, both within ", kMost_m));
   }
   if (auto status = CheckLimit("max_speed_mps", task.max_speed_mps); !status.ok()) return status;
   return Turns(task.space) ? CheckLimit("max_turn_radps", task.max_turn_radps) : absl::OkStatus();
@@ -126,6 +133,10 @@ absl::Status CheckConfiguration(const std::string& field, const std::vector<doub
 }
 
 }  // namespace
+
+double DefaultGroundClearance(double resolution_m, double padding_m) {
+  return 1.5 * resolution_m + padding_m;
+}
 
 bool Turns(const ConfigurationSpace& space) {
   const auto* plane = std::get_if<PlaneSpace>(&space);

@@ -111,4 +111,6 @@ const Robot& SceneChecker::robot() const { return impl_->robot->robot(); }
 std::uint64_t SceneChecker::version() const { return impl_->scene->version; }
 Time SceneChecker::stamp() const { return impl_->scene->stamp; }
 
+const SceneSnapshot& SceneChecker::scene() const { return *impl_->scene; }
+
 }  // namespace clearway

@@ -137,10 +137,12 @@ class Work {
 
 }  // namespace
 
-absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const StateChecker> checker,
-                                  Duration budget, const std::function<void(const Plan&)>& found,
+absl::StatusOr<PlanOutcome> Solve(const PlanTask& asked,
+                                  std::shared_ptr<const StateChecker> checker, Duration budget,
+                                  const std::function<void(const Plan&)>& found,
                                   const std::function<bool()>& cancelled) {
   const auto end = std::chrono::steady_clock::now() + budget;
+  const PlanTask task = WithClearance(asked, *checker);
   bool late = false;  // a question was not answered for lack of time
   checker = EndingWhen(
       [&] {

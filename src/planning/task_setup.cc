@@ -16,7 +16,8 @@ namespace clearway {
 namespace ob = ompl::base;
 
 absl::StatusOr<ompl::geometric::SimpleSetupPtr> MakeTaskSetup(
-    const PlanTask& task, const std::shared_ptr<const StateChecker>& checker) {
+    const PlanTask& asked, const std::shared_ptr<const StateChecker>& checker) {
+  const PlanTask task = WithClearance(asked, *checker);
   if (auto status = Validate(task, checker->robot()); !status.ok()) return status;
   if (task.start_time < checker->stamp()) {
     return absl::InvalidArgumentError(absl::StrCat("start_ns is ", ToNanoseconds(task.start_time),

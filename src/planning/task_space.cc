@@ -4,6 +4,9 @@
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 
+#include <algorithm>
+
+#include "clearway/collision/scene_checker.h"
 #include "clearway/planning/arm.h"
 
 namespace clearway {
@@ -23,6 +26,23 @@ ob::RealVectorBounds BoundsOf(const Aabb& area_W, unsigned int axes) {
   return bounds;
 }
 
+// R^n that may be a single point: OMPL refuses spaces without an extent.
+class Coordinates : public ob::RealVectorStateSpace {
+ public:
+  using ob::RealVectorStateSpace::RealVectorStateSpace;
+  double getMaximumExtent() const override {
+    constexpr double kLeast = 1e-9;
+    return std::max(kLeast, ob::RealVectorStateSpace::getMaximumExtent());
+  }
+};
+
+// SE(2) or SE(3) whose positions may be a single point.
+template <class Base, unsigned int kAxes>
+class RigidPoses : public Base {
+ public:
+  RigidPoses() { this->components_[0] = std::make_shared<Coordinates>(kAxes); }
+};
+
 template <class Space>
 ob::StateSpacePtr Bounded(std::shared_ptr<Space> space, const ob::RealVectorBounds& bounds) {
   space->setBounds(bounds);
@@ -32,13 +52,13 @@ ob::StateSpacePtr Bounded(std::shared_ptr<Space> space, const ob::RealVectorBoun
 ob::StateSpacePtr PartOf(const PlanTask& task) {
   if (const auto* plane = std::get_if<PlaneSpace>(&task.space)) {
     const ob::RealVectorBounds bounds = BoundsOf(task.area_W, 2);
-    return plane->turns ? Bounded(std::make_shared<ob::SE2StateSpace>(), bounds)
-                        : Bounded(std::make_shared<ob::RealVectorStateSpace>(2), bounds);
+    return plane->turns ? Bounded(std::make_shared<RigidPoses<ob::SE2StateSpace, 2>>(), bounds)
+                        : Bounded(std::make_shared<Coordinates>(2), bounds);
   }
   if (const auto* flight = std::get_if<FlightSpace>(&task.space)) {
     const ob::RealVectorBounds bounds = BoundsOf(task.area_W, 3);
-    return flight->turns ? Bounded(std::make_shared<ob::SE3StateSpace>(), bounds)
-                         : Bounded(std::make_shared<ob::RealVectorStateSpace>(3), bounds);
+    return flight->turns ? Bounded(std::make_shared<RigidPoses<ob::SE3StateSpace, 3>>(), bounds)
+                         : Bounded(std::make_shared<Coordinates>(3), bounds);
   }
   const std::vector<Joint>& joints = std::get<ArmSpace>(task.space).joints;
   ob::RealVectorBounds bounds(static_cast<unsigned int>(joints.size()));
@@ -46,13 +66,16 @@ ob::StateSpacePtr PartOf(const PlanTask& task) {
     bounds.setLow(i, joints[i].min_rad);
     bounds.setHigh(i, joints[i].max_rad);
   }
-  return Bounded(std::make_shared<ob::RealVectorStateSpace>(bounds.low.size()), bounds);
+  return Bounded(std::make_shared<Coordinates>(static_cast<unsigned int>(joints.size())), bounds);
 }
 
 SpeedLimits LimitsOf(const PlanTask& task) {
   SpeedLimits limits;
   if (const auto* arm = std::get_if<ArmSpace>(&task.space)) {
-    for (const Joint& joint : arm->joints) limits.axes_per_s.push_back(joint.max_radps);
+    for (const Joint& joint : arm->joints) {
+      const bool locked = joint.min_rad == joint.max_rad;
+      limits.axes_per_s.push_back(locked ? 1 : joint.max_radps);  // OMPL's limit is above 0
+    }
     return limits;
   }
   limits.translation_mps = task.max_speed_mps;
@@ -81,12 +104,21 @@ StateMapping MappingOf(const PlanTask& task, const Robot& robot) {
   if (const auto* arm = std::get_if<ArmSpace>(&task.space)) return ArmMapping(robot, *arm, time);
   if (const auto* plane = std::get_if<PlaneSpace>(&task.space)) {
     Ground ground;
-    ground.clearance_m = plane->ground_z_m + plane->clearance_m;
+    ground.clearance_m = plane->ground_z_m + plane->clearance_m.value_or(0);
     return plane->turns ? StateMapping::Se2(robot, ground, time)
                         : StateMapping::R2(robot, ground, time, plane->yaw_rad);
   }
   return std::get<FlightSpace>(task.space).turns ? StateMapping::Se3(robot, time)
                                                  : StateMapping::R3(robot, time);
+}
+
+PlanTask WithClearance(PlanTask task, const StateChecker& checker) {
+  auto* const plane = std::get_if<PlaneSpace>(&task.space);
+  if (plane == nullptr || plane->clearance_m) return task;
+  const auto* const local = dynamic_cast<const SceneChecker*>(&checker);
+  const SceneParams params = local != nullptr ? local->scene().params : SceneParams{};
+  plane->clearance_m = DefaultGroundClearance(params.resolution_m, task.options.check.padding_m);
+  return task;
 }
 
 void WriteConfiguration(const ConfigurationSpace& space, const std::vector<double>& values,

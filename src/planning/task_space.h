@@ -12,6 +12,9 @@ namespace clearway {
 // The task's space and time, in seconds after the start.
 std::shared_ptr<SpaceTimeStateSpace> SpaceOf(const PlanTask& task);
 StateMapping MappingOf(const PlanTask& task, const Robot& robot);
+// The task with the clearance above the ground that suits the checker's scene, if it has none. A
+// checker that shows no scene is taken to have voxels of the default size.
+PlanTask WithClearance(PlanTask task, const StateChecker& checker);
 
 // A configuration as a state of the space without time, whose bounds have to be enforced, and back.
 void WriteConfiguration(const ConfigurationSpace& space, const std::vector<double>& values,

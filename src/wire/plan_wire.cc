@@ -25,7 +25,7 @@ void WriteSpace(const ConfigurationSpace& space, v1::PlanRequest* proto) {
     proto->mutable_plane()->set_turns(plane->turns);
     proto->mutable_plane()->set_yaw_rad(plane->yaw_rad);
     proto->mutable_plane()->set_ground_z_m(plane->ground_z_m);
-    proto->mutable_plane()->set_clearance_m(plane->clearance_m);
+    if (plane->clearance_m) proto->mutable_plane()->set_clearance_m(*plane->clearance_m);
   } else if (const auto* flight = std::get_if<FlightSpace>(&space)) {
     proto->mutable_flight()->set_turns(flight->turns);
   } else {

@@ -227,7 +227,7 @@ TEST(SolveTask, BadTasksAreRefusedByName) {
     EXPECT_EQ(message(spoil).rfind(field, 0), 0u) << field << ": " << message(spoil);
   };
   expect("area.x", [](PlanTask& t) { t.area_W.min.x() = NAN; });
-  expect("area.y", [](PlanTask& t) { t.area_W.max.y() = -5; });
+  expect("area.y", [](PlanTask& t) { t.area_W.max.y() = -6; });
   expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = 0; });
   expect("max_speed_mps", [](PlanTask& t) { t.max_speed_mps = NAN; });
   expect("time_limit_s is 30;", [](PlanTask& t) { t.max_speed_mps = 1e-300; });

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -14,13 +15,19 @@ namespace clearway {
 
 // The robot stands upright on level ground and moves as one body. A configuration is x and y of its
 // links' common frame in metres in W, and, if it turns, its yaw in radians about W's z. The lowest
-// point of its shapes' boxes is kept clearance_m above the ground.
+// point of its shapes' boxes is kept clearance_m above the ground, without it
+// DefaultGroundClearance.
 struct PlaneSpace {
   bool turns = true;
   double yaw_rad = 0;  // if it does not turn
   double ground_z_m = 0;
-  double clearance_m = 0.1;
+  std::optional<double> clearance_m = std::nullopt;
 };
+
+// At what clearance even ground is free under a robot, in a static map of these voxels: ground
+// fills the voxel that it lies in, the top of which is up to a voxel above it. Half a voxel more
+// is for points that stray into the next one. Obstacles lower than that may not be seen.
+double DefaultGroundClearance(double resolution_m, double padding_m);
 
 // It flies as one body: x, y, z in W, and, if it turns, the unit quaternion x, y, z, w of its
 // rotation; else it keeps W's axes.
@@ -28,7 +35,7 @@ struct FlightSpace {
   bool turns = true;
 };
 
-// A revolute joint. Angles in radians.
+// A revolute joint. Angles in radians. It is locked if min_rad is max_rad; then max_radps may be 0.
 struct Joint {
   Pose T_P_J;  // of the joint's frame J at angle 0 in the frame P of the link before it
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitZ();  // that the next link turns about; any length
@@ -51,7 +58,9 @@ std::size_t DimensionOf(const ConfigurationSpace& space);
 // From one configuration to another, as early as can be. A plain value.
 struct PlanTask {
   ConfigurationSpace space;
-  Aabb area_W;                // where x, y (and z) of configurations may be; not of arms
+  // Where x, y (and z) of configurations may be, along an axis at one place alone if the area has
+  // no extent there; not of arms.
+  Aabb area_W;
   double max_speed_mps = 0;   // along x, y (and z) together; not of arms
   double max_turn_radps = 0;  // if it turns
   std::vector<double> start, goal;

@@ -33,6 +33,7 @@ class SceneChecker : public StateChecker {
   const Robot& robot() const override;
   std::uint64_t version() const override;
   Time stamp() const override;
+  const SceneSnapshot& scene() const;
 
  private:
   struct Impl;

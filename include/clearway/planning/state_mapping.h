@@ -19,14 +19,15 @@
 namespace clearway {
 
 // Where a ground robot stands. Its lowest point (of its shapes' boxes, when upright) is kept
-// `clearance_m` above the ground at its (x, y), so that the ground's own voxels do not block it;
-// one voxel is enough on even ground, plus CheckOptions::padding_m, which grows the robot downwards
-// too.
+// `clearance_m` above the ground at its (x, y), so that the ground's own voxels do not block it.
+// Ground fills the voxel that it lies in, up to a voxel above it, and touching is contact: on even
+// ground take DefaultGroundClearance of the map's resolution and of CheckOptions::padding_m, which
+// grows the robot downwards too.
 struct Ground {
   // z of the ground at (x, y), metres in W; none: 0 everywhere. Must be callable from any thread,
   // and finite.
   std::function<double(double x_m, double y_m)> height_m;
-  double clearance_m = 0.1;
+  double clearance_m = 0.15;  // the same for voxels of 0.1 m without padding
   // The most that height_m changes per metre. Has to be stated with it: proofs of motions rest on
   // it.
   std::optional<double> max_slope = std::nullopt;
