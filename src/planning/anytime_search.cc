@@ -160,7 +160,30 @@ bool AnytimeSearch::Search(double weight, const ob::Goal& goal,
   if (found.empty()) return false;
   path_ = std::move(found);
   found_in_ = search_.stays();
+  LeaveOutDetours();
   return true;
+}
+
+bool AnytimeSearch::MayGoStraight(const Stay& from, const Stay& to) {
+  const double depart_s = to.arrival_s - roadmap_.Seconds(from.place, to.place);
+  return depart_s >= from.arrival_s && depart_s <= from.leave_by_s &&
+         checks_.Way(roadmap_.Place(from.place), roadmap_.Place(to.place), depart_s, to.arrival_s)
+             .free;
+}
+
+// The search asks for the arrival alone: where a robot has to wait anyhow, it may have been
+// somewhere meanwhile.
+void AnytimeSearch::LeaveOutDetours() {
+  for (std::size_t i = 0; i + 2 < path_.size(); ++i) {
+    for (std::size_t j = path_.size() - 1; j > i + 1; --j) {
+      if (!MayGoStraight(path_[i], path_[j])) continue;
+      path_[j].departed_s = path_[j].arrival_s - roadmap_.Seconds(path_[i].place, path_[j].place);
+      const auto begin = path_.begin();
+      path_.erase(begin + static_cast<std::ptrdiff_t>(i + 1),
+                  begin + static_cast<std::ptrdiff_t>(j));
+      break;
+    }
+  }
 }
 
 // A way that leaves out places in between may be shorter.

@@ -47,6 +47,9 @@ class AnytimeSearch {
   bool Search(double weight, const ompl::base::Goal& goal,
               const ompl::base::PlannerTerminationCondition& until);
   void JoinAlongPath();
+  // From now on shorter times in which places and ways are free are found; what was in the way is
+  // looked at again. False if that was done as finely as it is worth.
+  bool LookFiner() { return search_.LookFiner(); }
 
   bool found() const { return led() && path_.back().arrival_s <= latest_s_; }
   // Whether there is a path at all: one that is late leads to those in time.
@@ -80,6 +83,9 @@ class AnytimeSearch {
   void SampleNearPlaces(ompl::base::State* part);
   double ArrivalBy(const ompl::base::State* part) const;
   std::size_t GoalPlace(const ompl::base::State* part);
+  // Of the best path: whether the robot may wait at one stay and go straight on to a later one.
+  bool MayGoStraight(const Stay& from, const Stay& to);
+  void LeaveOutDetours();
   std::optional<double> Arrives(const ompl::base::Goal& goal, std::size_t place, double from_s,
                                 double until_s) const;
 

@@ -94,7 +94,7 @@ double IntervalSearch::FreeFrom(std::size_t place, double arrival_s,
   KnowPlaces();
   if (KnownUntil(place, arrival_s)) return arrival_s;
   double from_s = arrival_s;
-  for (const auto& [taken_s, until_s] : taken_[place]) {
+  for (const auto& [taken_s, until_s, closely] : taken_[place]) {
     if (taken_s <= from_s && from_s < until_s) from_s = until_s;
   }
   const bool known = from_s > arrival_s;
@@ -104,8 +104,17 @@ double IntervalSearch::FreeFrom(std::size_t place, double arrival_s,
   const double free_s = cancelled == nullptr
                             ? checks_.FreeFrom(part, from_s)
                             : checks_.FreeFromClosely(part, from_s, space_.latest_s(), *cancelled);
-  if (free_s > from_s) taken_[place].emplace_back(from_s, free_s);
+  if (free_s > from_s) taken_[place].push_back({from_s, free_s, cancelled != nullptr});
   return free_s;
+}
+
+bool IntervalSearch::LookFiner() {
+  if (!checks_.LookFiner()) return false;
+  for (auto& intervals : taken_) {
+    std::erase_if(intervals, [](const Taken& taken) { return !taken.closely; });
+  }
+  absl::erase_if(answers_, [](const auto& entry) { return !entry.second.free; });
+  return true;
 }
 
 bool IntervalSearch::AddStay(std::size_t place, double arrival_s, int before, double departed_s) {

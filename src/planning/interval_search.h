@@ -46,6 +46,8 @@ class IntervalSearch {
   // Not before then it is worth trying to be at the place. `cancelled`, not null, if it is a goal,
   // which is looked at closely.
   double FreeFrom(std::size_t place, double arrival_s, const std::function<bool()>* cancelled);
+  // See TimedChecks::LookFiner. What was found in the way before then is looked at again.
+  bool LookFiner();
   // All of the last search.
   const std::vector<Stay>& stays() const { return stays_; }
 
@@ -90,7 +92,12 @@ class IntervalSearch {
   absl::flat_hash_set<Way> never_;
   absl::flat_hash_map<std::pair<Way, std::int64_t>, WayAnswer> answers_;
   // By place: from when to when it can be held, and when something is in the way there.
-  std::vector<std::vector<std::pair<double, double>>> held_, taken_;
+  std::vector<std::vector<std::pair<double, double>>> held_;
+  struct Taken {
+    double from_s, until_s;
+    bool closely;  // looked at
+  };
+  std::vector<std::vector<Taken>> taken_;
 };
 
 }  // namespace clearway

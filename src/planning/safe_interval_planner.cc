@@ -143,6 +143,7 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
       impl_->search.JoinAlongPath();
       if (first) continue;
     }
+    if (!earlier) impl_->search.LookFiner();
     if (!enough && !until()) {
       more = impl_->search.AddPlaces(std::max<std::size_t>(first_batch_, impl_->search.places()),
                                      until);

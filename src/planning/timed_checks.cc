@@ -17,6 +17,8 @@ constexpr double kLookAgain_s = 0.3, kGoneWithin_s = 0.1;
 // Later it is looked again after this part of what it has been there for. At places more often than
 // on ways: of a place the answer is kept, of ways others are asked about, at other times.
 constexpr double kOfWhatPassedAtPlaces = 1.0 / 64, kOfWhatPassedOnWays = 1.0 / 8;
+// At last this part of these times.
+constexpr double kFinest = 1.0 / 16;
 // The same where hardly a gap is to be missed, for how long, and at how many times at once.
 constexpr double kLookClosely_s = 0.02, kGoneWithinClosely_s = 1e-3, kClosely_s = 3600;
 constexpr std::size_t kMostLooks = 1024;
@@ -71,7 +73,16 @@ double TimedChecks::WaitByHalves(double from_s, double until_s) {
 double TimedChecks::FreeFrom(const ob::State* part, double at_s) {
   if (query_ == nullptr) return at_s;
   space_->space()->copyState(SpaceTimeStateSpace::SpacePart(first_), part);
-  return IsFreeAt(at_s) ? at_s : FreeAgain(at_s, latest_s_, kOfWhatPassedAtPlaces);
+  const Looks looks = LookAt({at_s});
+  if (looks.free) return at_s;
+  if (looks.forever) return std::numeric_limits<double>::infinity();
+  return FreeAgain(at_s, latest_s_, kOfWhatPassedAtPlaces);
+}
+
+bool TimedChecks::LookFiner() {
+  if (coarseness_ <= kFinest) return false;
+  coarseness_ /= 2;
+  return true;
 }
 
 double TimedChecks::FreeFromClosely(const ob::State* part, double at_s, double until_s,
@@ -155,11 +166,12 @@ double TimedChecks::FreeAgain(double blocked_s, double until_s, double of_what_p
   double there_s = blocked_s, gone_s = blocked_s;
   while (gone_s == blocked_s) {
     if (there_s >= until_s) return std::numeric_limits<double>::infinity();
-    const double wait_s = std::max(kLookAgain_s, of_what_passed * (there_s - blocked_s));
+    const double wait_s =
+        coarseness_ * std::max(kLookAgain_s, of_what_passed * (there_s - blocked_s));
     const double look_s = std::min(there_s + wait_s, until_s);
     (IsFreeAt(look_s) ? gone_s : there_s) = look_s;
   }
-  return FreeWithin(there_s, gone_s, kGoneWithin_s);
+  return FreeWithin(there_s, gone_s, coarseness_ * kGoneWithin_s);
 }
 
 // From when on it is free, nearly: at the first time it is not.

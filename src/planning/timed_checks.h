@@ -41,6 +41,9 @@ class TimedChecks {
   WayAnswer Way(const ompl::base::State* from_part, const ompl::base::State* to_part,
                 double begin_s, double end_s);
   std::size_t ways_asked() const { return ways_asked_; }
+  // From now on it is looked twice as often whether something that passes is gone. False if it is
+  // looked as often as is worth while.
+  bool LookFiner();
 
  private:
   bool IsFree(double begin_s, double end_s);  // from first_ to second_
@@ -62,6 +65,7 @@ class TimedChecks {
   ompl::base::State *first_, *second_;  // owned
   double latest_s_;
   std::size_t ways_asked_ = 0;
+  double coarseness_ = 1;  // of looks whether something that passes is gone
 };
 
 }  // namespace clearway

@@ -180,6 +180,21 @@ TEST(SolveWindows, ADoorOpensOnce) {
   }
 }
 
+// The only door is free for half a second at a time, late, too: between looks that are the farther
+// apart the longer it has been closed. A robot at 4 m/s needs 0.18 s of that.
+TEST(SolveWindows, AShortGapThatOpensLateIsFound) {
+  for (const double opens_s : {3.07, 5.6, 9.13, 17.21}) {
+    TestWorld world;
+    world.Given(1, Box{{0.1, 4.6, 2}}, Pose::Translation(0, -2.7, 0));
+    world.Given(2, Box{{0.1, 4.6, 2}}, Pose::Translation(0, 2.7, 0));
+    GivenBut({opens_s, opens_s + 0.4}, world, 3, Box{{0.1, 1.2, 2}}, {});
+    PlanTask task = AcrossThePlace();
+    task.max_speed_mps = 4;
+    task.time_limit = seconds(30);
+    ExpectArrivesBy(opens_s + 1.6, world.Scene(), task);
+  }
+}
+
 // Of a large place hardly anything can be visited on a short way.
 TEST(SolveWindows, AShortWayInALargePlace) {
   TestWorld world;
