@@ -47,13 +47,19 @@ double ArrivalOf(const Plan& plan, const PlanTask& task) {
   return ToSeconds(plan.times.back() - task.start_time);
 }
 
-std::string WhatBlocks(const StateAnswer& blocker) {
+std::string NameOf(ObjectId id, const Scenario& scenario) {
+  const auto name = scenario.names.find(id);
+  const std::string object = absl::StrCat("object ", id);
+  return name == scenario.names.end() ? object : absl::StrCat(object, ", ", name->second);
+}
+
+std::string WhatBlocks(const StateAnswer& blocker, const Scenario& scenario) {
   if (blocker.status == SpaceStatus::kBeyondHorizon) {
-    return absl::StrCat("object ", blocker.object,
+    return absl::StrCat(NameOf(blocker.object, scenario),
                         ", which may be anywhere there then: it is beyond the server's horizon of "
                         "predictions (--scene-horizon-s)");
   }
-  if (blocker.object != kStaticLabel) return absl::StrCat("object ", blocker.object);
+  if (blocker.object != kStaticLabel) return NameOf(blocker.object, scenario);
   switch (blocker.status) {
     case SpaceStatus::kOutOfBounds:
       return "the scene's bounds";
@@ -64,17 +70,17 @@ std::string WhatBlocks(const StateAnswer& blocker) {
   }
 }
 
-absl::Status StatusOf(const PlanOutcome& outcome, const Flags& flags) {
+absl::Status StatusOf(const PlanOutcome& outcome, const Scenario& scenario, const Flags& flags) {
   switch (outcome.status) {
     case PlanStatus::kFound:
       return absl::OkStatus();
     case PlanStatus::kStartBlocked:
       return absl::FailedPreconditionError(
-          absl::StrCat("no plan: the start is blocked by ", WhatBlocks(outcome.blocker)));
+          absl::StrCat("no plan: the start is blocked by ", WhatBlocks(outcome.blocker, scenario)));
     case PlanStatus::kGoalBlocked:
       return absl::FailedPreconditionError(
           absl::StrCat("no plan: the goal was never seen free, first of all blocked by ",
-                       WhatBlocks(outcome.blocker)));
+                       WhatBlocks(outcome.blocker, scenario)));
     case PlanStatus::kNoTimeToSpare:
       return absl::FailedPreconditionError(
           "no plan: the straight way is not free, and none was found that the time limit allows");
@@ -166,6 +172,13 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const SignalsBlocked blocked;
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
+  const double most_s = (*connection)->server().limits.max_planning_s;
+  if (flags.budget_s > most_s) {
+    return absl::InvalidArgumentError(absl::StrFormat(
+        "--budget is %.10g s; the server's limit (limits.max_planning_s) is %.10g s",
+        flags.budget_s, most_s));
+  }
+  if (!scenario->note.empty()) terminal.err << "note: " << scenario->note << "\n";
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
   if (!status.ok()) return status.status();
@@ -195,7 +208,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   } else if (!plans.empty()) {
     PrintText(terminal.out, plans.back().plan, scenario->task);
   }
-  return StatusOf(*outcome, flags);
+  return StatusOf(*outcome, *scenario, flags);
 }
 
 }  // namespace
@@ -208,7 +221,9 @@ void AddPlan(Cli& cli) {
   command->add_option("file", flags->file, "What to plan: a scenario file (docs/formats.md)")
       ->required();
   command
-      ->add_option("--budget", flags->budget_s, "Seconds to think (default: 1); servers limit it")
+      ->add_option("--budget", flags->budget_s,
+                   "Seconds to think (default: 1); at most the server's\nlimits.max_planning_s, "
+                   "which is 60 unless set")
       ->check(Between(0.001, 3600));
   command->add_flag("--first", flags->first, "End with the first plan");
   command->add_flag("--json", flags->json, "Print JSON");

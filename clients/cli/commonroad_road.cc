@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "absl/strings/str_cat.h"
+
 namespace clearway::cli {
 namespace {
 
@@ -82,7 +84,12 @@ absl::StatusOr<std::vector<Track>> RoadEdgesOf(const XmlElement& road, double he
       if (!element.ok()) return element.status();
       const auto points = PointsOf(*element);
       if (!points.ok()) return points.status();
+      const std::size_t before = edges.size();
       AddEdges(*points, height_m, edges);
+      for (std::size_t i = before; i < edges.size(); ++i) {
+        edges[i].name =
+            absl::StrCat("road edge (", bound, " of lanelet ", lanelet.Attribute("id"), ")");
+      }
     }
   }
   return edges;

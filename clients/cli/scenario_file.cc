@@ -131,12 +131,19 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
     auto objects = ParseGivenObjects(**list, "objects", folder);
     if (!objects.ok()) return objects.status();
     scenario.objects = *std::move(objects);
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
+      if (!(**list)[i].contains("about") || !(**list)[i].at("about").is_string()) continue;
+      scenario.names[scenario.objects[i].id] = (**list)[i].at("about").get<std::string>();
+    }
   }
   if (fields->Has("tracks")) {
     constexpr ObjectId kFirstId = 1'000'000;
-    auto people = ParseTracks(json.at("tracks"), "tracks", kFirstId);
-    if (!people.ok()) return people.status();
-    scenario.objects.insert(scenario.objects.end(), people->begin(), people->end());
+    auto recorded = ParseTracks(json.at("tracks"), "tracks", kFirstId);
+    if (!recorded.ok()) return recorded.status();
+    scenario.objects.insert(scenario.objects.end(), recorded->objects.begin(),
+                            recorded->objects.end());
+    scenario.names.merge(recorded->names);
+    scenario.note = std::move(recorded->note);
   }
   if (auto status = Validate(scenario.task, scenario.robot); !status.ok()) return status;
   return scenario;

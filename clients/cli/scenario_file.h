@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +18,10 @@ struct Scenario {
   std::string name;
   Robot robot;
   PlanTask task;
-  bool starts_at_once = true;        // when is not stated
-  std::vector<GivenObject> objects;  // that the scene gets for it
+  bool starts_at_once = true;             // when is not stated
+  std::vector<GivenObject> objects;       // that the scene gets for it
+  std::map<ObjectId, std::string> names;  // of those that the file describes
+  std::string note;                       // for people, if there is something to be said
   bool solvable = true;
   std::optional<double> optimum_s;  // no plan arrives earlier, in seconds after the start
 };

@@ -1,6 +1,10 @@
 #include "cli/scenario_tracks.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "cli/tracks.h"
 
 namespace clearway::cli {
@@ -28,10 +32,26 @@ absl::StatusOr<std::vector<Track>> ReadTracks(const JsonFields& fields, const Js
   return fields.Error("format", "expected ucy, commonroad or boxes");
 }
 
+// From when to when anything that moves is seen; none if nothing moves.
+struct Range {
+  double from_s = std::numeric_limits<double>::infinity();
+  double until_s = -std::numeric_limits<double>::infinity();
+};
+
+Range RangeOf(const std::vector<Track>& tracks) {
+  Range range;
+  for (const Track& track : tracks) {
+    if (!track.moves) continue;
+    range.from_s = std::min(range.from_s, track.seen.front().t_s);
+    range.until_s = std::max(range.until_s, track.seen.back().t_s);
+  }
+  return range;
+}
+
 }  // namespace
 
-absl::StatusOr<std::vector<GivenObject>> ParseTracks(const Json& value, const std::string& path,
-                                                     ObjectId first_id) {
+absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& path,
+                                         ObjectId first_id) {
   // What else there may be, each format knows.
   const auto fields = JsonFields::Of(
       value, path,
@@ -41,7 +61,23 @@ absl::StatusOr<std::vector<GivenObject>> ParseTracks(const Json& value, const st
   if (!window.ok()) return window.status();
   const auto tracks = ReadTracks(*fields, value, path);
   if (!tracks.ok()) return tracks.status();
-  std::vector<GivenObject> objects;
+  const Range range = RangeOf(*tracks);
+  const bool any_moves = range.from_s <= range.until_s;
+  const std::string lasts = absl::StrFormat("from %.10g to %.10g s", range.from_s, range.until_s);
+  if (any_moves && window->from_s >= range.until_s && window->from_s > 0) {
+    return fields->Error(
+        "from_s", absl::StrFormat("is %.10g; the recording lasts %s", window->from_s, lasts));
+  }
+  TrackObjects result;
+  const double ends_s = window->from_s + window->for_s;
+  if (any_moves && ends_s > range.until_s) {
+    result.note = absl::StrFormat(
+        "%s: the recording lasts %s, the scenario until %.10g s of it: after the end everything "
+        "goes straight on",
+        path, lasts, ends_s);
+  }
+  const auto file = fields->Text("file");
+  if (!file.ok()) return file.status();
   for (const Track& track : *tracks) {
     if (std::abs(track.seen.front().t_s) > kLongest_s || track.seen.back().t_s > kLongest_s) {
       return fields->Error("file", "its times are too long");
@@ -49,9 +85,10 @@ absl::StatusOr<std::vector<GivenObject>> ParseTracks(const Json& value, const st
     auto object = ObjectIn(*window, track);
     if (!object) continue;
     object->id = first_id++;
-    objects.push_back(*std::move(object));
+    result.names[object->id] = absl::StrCat(track.name, " of ", *file);
+    result.objects.push_back(*std::move(object));
   }
-  return objects;
+  return result;
 }
 
 }  // namespace clearway::cli

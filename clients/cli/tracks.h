@@ -25,6 +25,7 @@ struct Track {
   Shape shape;
   std::vector<Sighting> seen;  // ascending times, at least one
   bool moves = true;           // else it is where it was seen first, always
+  std::string name = {};       // kind and id in the recording, as in "person 12"
 };
 
 // From when and for how long a recording counts.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
 #include "cli/open_source.h"
 #include "cli/tracks.h"
@@ -58,6 +59,7 @@ absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::s
   std::vector<Track> tracks;
   for (auto& [id, track] : by_id) {
     GuessVelocities(kVelocityOver_s, track);
+    track.name = absl::StrCat("track ", id);
     tracks.push_back(std::move(track));
   }
   return tracks;

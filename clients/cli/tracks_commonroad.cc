@@ -110,6 +110,7 @@ absl::StatusOr<Track> TrackOf(const XmlElement& obstacle, const FileFacts& facts
     if (role != "static" && role != "dynamic") return element->Error("expected static or dynamic");
   }
   track.moves = role == "dynamic";
+  track.name = absl::StrCat(role, " obstacle ", obstacle.Attribute("id"));
   const auto placed = ShapeOf(obstacle, facts.height_m);
   if (!placed.ok()) return placed.status();
   track.shape = placed->shape;

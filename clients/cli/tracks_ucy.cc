@@ -53,6 +53,7 @@ absl::StatusOr<std::vector<Track>> ReadUcyTracks(const Json& value, const std::s
   for (auto& [id, track] : *people) {
     std::ranges::sort(track.seen, {}, &Sighting::t_s);
     track.shape = shape;
+    track.name = absl::StrCat("person ", id);
     tracks.push_back(std::move(track));
   }
   return tracks;

@@ -56,6 +56,44 @@ TEST_F(CliPlan, APlanIsAPathInTime) {
   EXPECT_EQ(path.back()["t_s"], arrival_s);
 }
 
+// Where it has to wait for the door, it does so at the start, and goes straight to the goal then.
+TEST_F(CliPlan, AWaitComesWithoutADetour) {
+  const std::string file = std::string(CLEARWAY_SCENARIOS) + "/one_door.json";
+  for (int i = 0; i < 5; ++i) {
+    const json dut = Ask({"plan", file, "--budget", "0.3"});
+    ASSERT_EQ(dut["found"], true);
+    for (const json& place : dut["path"]) EXPECT_GE(place["configuration"][0], -5.0);
+  }
+}
+
+// By what it is in the file.
+TEST_F(CliPlan, WhatBlocksIsNamed) {
+  const TemporaryFolder folder;
+  const auto plan = [&](const std::string& about) {
+    return Clearway({"plan",
+                     folder.Write("blocked.json", R"({"name": "b", "robot": "sphere:0.3",
+      "space": {"type": "flight", "turns": false}, "area_m": [[90, 90, 0], [99, 99, 2]],
+      "max_speed_mps": 1, "start": [91, 95, 1], "goal": [98, 95, 1], "time_limit_s": 60,
+      "unknown": "free", "objects": [{"id": 1002, )" + about +
+                                                      R"("shape": {"type": "sphere", "radius_m": 1},
+                                "pose": {"position_m": [91, 95, 1]}}]})")})
+        .err;
+  };
+  EXPECT_THAT(plan(""), HasSubstr("the start is blocked by object 1002"));
+  EXPECT_THAT(plan(R"("about": "a large ball", )"),
+              HasSubstr("the start is blocked by object 1002, a large ball"));
+}
+
+TEST_F(CliPlan, ABudgetAboveTheServersLimitIsRefusedWithTheLimit) {
+  const std::string file = std::string(CLEARWAY_SCENARIOS) + "/one_door.json";
+  const Finished dut = Clearway({"plan", file, "--budget", "100"});
+  EXPECT_NE(dut.exit_code, 0);
+  EXPECT_THAT(dut.err, HasSubstr("--budget is 100 s; the server's limit"));
+  EXPECT_THAT(dut.err, HasSubstr("is 60 s"));
+  EXPECT_EQ(Ask({"objects"})["objects"], json::array());
+  EXPECT_THAT(Clearway({"plan", "--help"}).out, HasSubstr("limits.max_planning_s"));
+}
+
 // Each plan begins at a stamp that frames may leave behind before it is asked for.
 TEST_F(CliPlan, PlansWhileFramesArrive) {
   const TemporaryFolder folder;

@@ -134,6 +134,46 @@ TEST(ScenarioFile, RecordedPeopleGoStraightBeforeAndAfterTheyAreSeen) {
   EXPECT_THAT(MessageOf(text), HasSubstr("tracks.file: no people.txt in the folder"));
 }
 
+// Where the recording is over there is nobody left.
+TEST(ScenarioFile, RecordingsThatAreOverAreRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "people.txt")
+      << "200 7 1 0 5 1 0 0\n300 7 5 0 5 2 0 0\n\n10 8 0 0 0 0 0 0\n";
+  const DataVariable data(folder.path());
+  const auto parse = [](const std::string& from_s) {
+    return ParseScenario("s.json", Spoilt("\"objects\"",
+                                          R"("tracks": {"format": "ucy", "file": "people.txt",
+                                             "for_s": 1, "radius_m": 0.3, "height_m": 1.8,
+                                             "from_s": )" +
+                                              from_s + R"(}, "objects")"));
+  };
+  for (const char* from_s : {"12", "500"}) {
+    EXPECT_EQ(parse(from_s).status().message(), std::string("s.json: tracks.from_s: is ") + from_s +
+                                                    "; the recording lasts from 0.4 to 12 s");
+  }
+  const auto inside = parse("10"), beyond = parse("11.5");
+  ASSERT_TRUE(inside.ok() && beyond.ok());
+  EXPECT_EQ(inside->note, "");
+  EXPECT_THAT(beyond->note, HasSubstr("the recording lasts from 0.4 to 12 s"));
+  EXPECT_THAT(beyond->note, HasSubstr("until 12.5 s of it"));
+  EXPECT_EQ(inside->names.at(1'000'000), "person 7 of people.txt");
+}
+
+// What the file says about an object names it.
+TEST(ScenarioFile, ObjectsHaveTheNamesThatTheFileGivesThem) {
+  const auto dut =
+      ParseScenario("s.json", Spoilt("{\"id\": 3,", R"({"id": 3, "about": "a door",)"));
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->names, (std::map<ObjectId, std::string>{{3, "a door"}}));
+}
+
+TEST(ScenarioFile, JointsWhoseLimitsDescendAreNamed) {
+  EXPECT_EQ(MessageOf(Spoilt(R"({"type": "plane", "turns": false})",
+                             R"({"type": "arm", "joints": [
+                                {"min_rad": 1, "max_rad": 0.5, "max_radps": 1}]})")),
+            "s.json: space.joints[0]: min_rad is 1; it must be at most max_rad, which is 0.5");
+}
+
 TEST(ScenarioFile, AFileThatIsNotThere) {
   const auto dut = LoadScenario("/nowhere/s.json");
   EXPECT_EQ(dut.status().code(), absl::StatusCode::kNotFound);

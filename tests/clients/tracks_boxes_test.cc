@@ -13,7 +13,9 @@ using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
 absl::StatusOr<std::vector<GivenObject>> Parse(const std::string& fields) {
-  return ParseTracks(Json::parse(R"({"format": "boxes", )" + fields + "}"), "tracks", 100);
+  auto all = ParseTracks(Json::parse(R"({"format": "boxes", )" + fields + "}"), "tracks", 100);
+  if (!all.ok()) return all.status();
+  return std::move(all->objects);
 }
 
 // Frames 4, 5 and 6 of a van, which turns a quarter in the last; a cyclist in the last alone.
@@ -42,6 +44,17 @@ TEST(BoxTracks, TheBoxesOfAFolderAreObjects) {
   EXPECT_THAT(wrong, HasSubstr("tracks.poses: expected icp, oxts or plain"));
   EXPECT_THAT(missing, HasSubstr("poses_oxts.csv"));
   EXPECT_THAT(alien, HasSubstr("tracks.height_m: unknown field"));
+}
+
+// The example's three frames are 0.1 s apart.
+TEST(BoxTracks, AWindowAfterTheRecordingIsRefused) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  const DataVariable data(folder.path().parent_path());
+  const std::string file = "\"file\": \"" + folder.path().filename().string() + "\"";
+  EXPECT_TRUE(Parse(file + R"(, "poses": "icp", "from_s": 0.1, "for_s": 1)").ok());
+  const auto dut = Parse(file + R"(, "poses": "icp", "from_s": 0.2, "for_s": 1)");
+  EXPECT_EQ(dut.status().message(), "tracks.from_s: is 0.2; the recording lasts from 0 to 0.2 s");
 }
 
 TEST(BoxTracks, TheLargestOfSizesThatDiffer) {

@@ -43,13 +43,19 @@ constexpr char kRoad[] = R"(<?xml version="1.0"?>
 // A folder of recordings with one file of that text.
 class CommonRoadTracks : public testing::Test {
  protected:
+  absl::StatusOr<TrackObjects> ParseAll(const std::string& text, double from_s,
+                                        const std::string& more = "") {
+    std::ofstream(folder_.path() / "road.xml") << text;
+    return ParseTracks(
+        Json::parse(R"({"format": "commonroad", "file": "road.xml", "from_s": )" +
+                    std::to_string(from_s) + R"(, "for_s": 2, "height_m": 1.6)" + more + "}"),
+        "tracks", 100);
+  }
   absl::StatusOr<std::vector<GivenObject>> Parse(const std::string& text,
                                                  const std::string& more = "") {
-    std::ofstream(folder_.path() / "road.xml") << text;
-    return ParseTracks(Json::parse(R"({"format": "commonroad", "file": "road.xml", "from_s": 0.5,
-                                       "for_s": 2, "height_m": 1.6)" +
-                                   more + "}"),
-                       "tracks", 100);
+    auto all = ParseAll(text, 0.5, more);
+    if (!all.ok()) return all.status();
+    return std::move(all->objects);
   }
   std::string MessageOf(const std::string& text, const std::string& more = "") {
     return std::string(Parse(text, more).status().message());
@@ -171,6 +177,27 @@ TEST_F(CommonRoadTracks, WhatIsWrongIsNamed) {
   EXPECT_THAT(MessageOf(kRoad, R"(, "road_edges": 1)"), HasSubstr("tracks.road_edges: expected"));
 }
 
+// By their kind and id in the recording.
+TEST_F(CommonRoadTracks, ObjectsHaveNames) {
+  const auto dut = ParseAll(kRoad, 0.5, R"(, "road_edges": true)");
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->names.size(), dut->objects.size());
+  EXPECT_EQ(dut->names.at(101), "static obstacle 13 of road.xml");
+  EXPECT_THAT(dut->names.at(100), HasSubstr("dynamic obstacle "));
+  EXPECT_THAT(dut->names.rbegin()->second, HasSubstr("road edge ("));
+  EXPECT_THAT(dut->names.rbegin()->second, HasSubstr(" of lanelet "));
+}
+
+TEST_F(CommonRoadTracks, AWindowAfterTheRecordingIsRefused) {
+  const auto all = ParseAll(kRoad, 0);
+  ASSERT_TRUE(all.ok()) << all.status();
+  EXPECT_THAT(all->note, HasSubstr("everything goes straight on"));
+  for (const double from_s : {3 * 0.5, 100.0}) {
+    EXPECT_THAT(std::string(ParseAll(kRoad, from_s).status().message()),
+                HasSubstr("the recording lasts from"));
+  }
+}
+
 TEST_F(CommonRoadTracks, FilesCutOffOrDeepAreErrors) {
   const std::string text = kRoad;
   for (std::size_t size = 0; size < text.size(); ++size) {
@@ -191,7 +218,7 @@ TEST(RealCommonRoadTracks, ReadsAHighway) {
       "tracks", 1);
   ASSERT_TRUE(dut.ok()) << dut.status();
   int cars = 0;
-  for (const GivenObject& object : *dut) {
+  for (const GivenObject& object : dut->objects) {
     if (object.future.empty()) continue;
     ++cars;
     // Highway traffic at 10 m/s and more or in a jam, never faster than 20 m/s.
@@ -201,7 +228,7 @@ TEST(RealCommonRoadTracks, ReadsAHighway) {
     EXPECT_LT((last.T_W_O.translation - object.pose.T_W_O.translation).norm(), 20 * seconds);
   }
   EXPECT_EQ(cars, 22);
-  EXPECT_GT(dut->size(), 30u);
+  EXPECT_GT(dut->objects.size(), 30u);
 }
 
 }  // namespace
