@@ -1,32 +1,22 @@
 #include "server/config.h"
 
-#include <arpa/inet.h>
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <set>
 #include <sstream>
 
 #include "absl/strings/match.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "server/environment.h"
+#include "server/listen_address.h"
 
 namespace clearway {
 namespace {
 
 using Values = std::map<std::string, std::string>;  // by key
-
-constexpr char kPrefix[] = "CLEARWAY_";
-// Names that other parts of Clearway read.
-const std::set<std::string>& ForeignNames() {
-  static const auto* const kNames =
-      new std::set<std::string>{"CLEARWAY_ADDRESS", "CLEARWAY_ALL_FRAMES", "CLEARWAY_CONFIG",
-                                "CLEARWAY_DATA",    "CLEARWAY_JOBS",       "CLEARWAY_SERVER"};
-  return *kNames;
-}
 
 absl::Status Unknown(const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(what, " is not a key of the configuration"));
@@ -70,24 +60,6 @@ absl::Status ReadFile(const std::string& path, Values& values) {
     return absl::InvalidArgumentError(
         absl::StrCat(path, ":", error.source().begin.line, ": ", std::string(error.description())));
   }
-}
-
-absl::Status ReadEnvironment(const std::vector<std::string>& environment, Values& values,
-                             std::string& file) {
-  std::map<std::string, const Setting*> settings;
-  for (const Setting& setting : Settings()) settings[setting.EnvironmentName()] = &setting;
-  for (const std::string& entry : environment) {
-    if (!absl::StartsWith(entry, kPrefix)) continue;
-    const std::size_t equals = entry.find('=');
-    const std::string name = entry.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : entry.substr(equals + 1);
-    if (name == "CLEARWAY_CONFIG") file = value;
-    if (ForeignNames().count(name) != 0) continue;
-    const auto setting = settings.find(name);
-    if (setting == settings.end()) return Unknown("environment: " + name);
-    values[setting->second->key] = value;
-  }
-  return absl::OkStatus();
 }
 
 struct Flags {
@@ -156,37 +128,35 @@ absl::Status ValidateLimits(const ServerLimits& limits) {
                  "limits.max_lease_ttl_s", "times must be at most 1000000 s");
 }
 
-bool NamesAPortOrSocket(const std::string& listen) {
-  if (absl::StartsWith(listen, "unix:")) return listen.size() > 5;
-  const std::size_t colon = listen.rfind(':');
-  int port = 0;
-  return colon != std::string::npos && absl::SimpleAtoi(listen.substr(colon + 1), &port) &&
-         port >= 0 && port <= 65535;
+absl::Status InRange(const char* key, Duration value, double min_s, double max_s) {
+  const double value_s = ToSeconds(value);
+  return Require(
+      value_s >= min_s && value_s <= max_s, key,
+      absl::StrCat("is ", value_s, " s; it must lie between ", min_s, " and ", max_s, " s"));
+}
+
+absl::Status ValidateKeepalive(const KeepaliveConfig& keepalive) {
+  for (const absl::Status& status :
+       {InRange("keepalive.time_s", keepalive.time, 1, 3600),
+        InRange("keepalive.timeout_s", keepalive.timeout, 1, 600),
+        InRange("keepalive.min_client_ping_s", keepalive.min_client_ping, 0.1, 3600)}) {
+    if (!status.ok()) return status;
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace
-
-bool IsLocalAddress(const std::string& listen) {
-  if (absl::StartsWith(listen, "unix:")) return true;
-  std::string_view host = std::string_view(listen).substr(0, listen.rfind(':'));
-  if (host.starts_with("ipv4:") || host.starts_with("ipv6:")) host.remove_prefix(5);
-  if (host == "localhost" || host == "[::1]") return true;
-  in_addr address;
-  return inet_pton(AF_INET, std::string(host).c_str(), &address) == 1 &&
-         ntohl(address.s_addr) >> 24 == 127;
-}
 
 absl::Status Validate(const ServerConfig& config) {
   const bool tls = !config.tls_cert.empty() && !config.tls_key.empty();
   static const auto* const kLevels =
       new std::set<std::string>{"trace", "debug", "info", "warning", "error", "off"};
+  const absl::StatusOr<ListenAddress> listen = ParseListenAddress(config.listen);
+  if (!listen.ok()) return listen.status();
   for (const absl::Status& status :
-       {Require(!config.listen.empty(), "listen", "is missing"),
-        Require(NamesAPortOrSocket(config.listen), "listen",
-                absl::StrCat(config.listen, " is neither host:port nor unix:/path")),
-        Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
+       {Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
                 "tls_cert and tls_key belong together"),
-        Require(tls || IsLocalAddress(config.listen), "listen",
+        Require(tls || listen->IsLocal(), "listen",
                 absl::StrCat(config.listen,
                              " can be reached from elsewhere, which needs tls_cert "
                              "and tls_key")),
@@ -198,7 +168,7 @@ absl::Status Validate(const ServerConfig& config) {
                 absl::StrCat("is ", config.writer_niceness, "; it must lie between 0 and 19")),
         Require(config.kept_versions <= 10'000, "kept_versions",
                 absl::StrCat("is ", config.kept_versions, "; the limit is 10000")),
-        ValidateLimits(config.limits)}) {
+        ValidateKeepalive(config.keepalive), ValidateLimits(config.limits)}) {
     if (!status.ok()) return status;
   }
   const absl::Status scene = Validate(config.scene);
@@ -210,25 +180,33 @@ absl::StatusOr<CommandLine> ReadCommandLine(const std::vector<std::string>& argu
                                             const std::vector<std::string>& environment) {
   absl::StatusOr<Flags> flags = ReadFlags(arguments);
   if (!flags.ok()) return flags.status();
-  if (!flags->help.empty()) return CommandLine{{}, false, flags->help};
-  Values from_environment, values;
-  std::string file;
-  if (auto status = ReadEnvironment(environment, from_environment, file); !status.ok()) {
-    return status;
-  }
-  if (!flags->file.empty()) file = flags->file;
+  if (!flags->help.empty()) return CommandLine{{}, false, flags->help, {}};
+  EnvironmentValues from_environment = ReadEnvironment(environment);
+  const std::string& file = flags->file.empty() ? from_environment.config_file : flags->file;
+  Values values;
   if (!file.empty()) {
     if (auto status = ReadFile(file, values); !status.ok()) return status;
   }
-  for (const Values* stronger : {&from_environment, &flags->values}) {
+  for (const Values* stronger : {&from_environment.values, &flags->values}) {
     for (const auto& [key, value] : *stronger) values[key] = value;
   }
+  // The variable is named when it is to blame.
+  const auto blame = [&](const absl::Status& status) {
+    const std::string message(status.message());
+    const std::string key = message.substr(0, message.find_first_of(": "));
+    if (flags->values.count(key) != 0 || from_environment.values.count(key) == 0) return status;
+    return absl::InvalidArgumentError(
+        absl::StrCat(message, " (set by ", FindSetting(key)->EnvironmentName(), ")"));
+  };
   CommandLine line;
   line.print_config = flags->print_config;
+  line.warnings = std::move(from_environment.warnings);
   for (const auto& [key, value] : values) {
-    if (auto status = FindSetting(key)->set(line.config, value); !status.ok()) return status;
+    if (auto status = FindSetting(key)->set(line.config, value); !status.ok()) {
+      return blame(status);
+    }
   }
-  if (auto status = Validate(line.config); !status.ok()) return status;
+  if (auto status = Validate(line.config); !status.ok()) return blame(status);
   return line;
 }
 

@@ -11,25 +11,30 @@
 
 namespace clearway {
 
+// How dead connections are found. A plain value.
+struct KeepaliveConfig {
+  Duration time = std::chrono::seconds(20);     // without a sign of life before a ping
+  Duration timeout = std::chrono::seconds(20);  // for its answer; then the connection is dropped
+  Duration min_client_ping = std::chrono::seconds(4);  // clients that ping more often are refused
+};
+
 // A plain value; Validate says whether it makes sense.
 struct ServerConfig {
-  // "127.0.0.1:50151" (port 0: any free one) or "unix:/path". Anything but loopback and Unix
-  // sockets needs TLS.
+  // As ParseListenAddress: "127.0.0.1:50151" (port 0: any free one) or "unix:/path". Anything but
+  // loopback and Unix sockets needs TLS.
   std::string listen = "127.0.0.1:50151";
   std::string tls_cert, tls_key;  // PEM files
   std::string log_level = "info";
   int threads = 0;                   // that apply frames; 0: as many as the machine has
   int writer_niceness = 5;           // of those threads: 0, as those that answer, to 19
   std::uint64_t kept_versions = 16;  // beside the newest, for mirrors that fell behind
+  KeepaliveConfig keepalive;
   SceneParams scene;
   ServerLimits limits;
 };
 
 // INVALID_ARGUMENT naming the key, the value and the limit.
 absl::Status Validate(const ServerConfig& config);
-
-// Whether only this machine can connect to the address.
-bool IsLocalAddress(const std::string& listen);
 
 // One key of the configuration: "scene.resolution_m" in the file, --scene-resolution-m as a flag,
 // CLEARWAY_SCENE_RESOLUTION_M in the environment.
@@ -47,12 +52,13 @@ const std::vector<Setting>& Settings();
 // What the command line asked for.
 struct CommandLine {
   ServerConfig config;
-  bool print_config = false;  // and then end
-  std::string help;           // not empty: print this and end
+  bool print_config = false;          // and then end
+  std::string help;                   // not empty: print this and end
+  std::vector<std::string> warnings;  // of the environment
 };
 
-// `environment`: "NAME=value" each. Unknown keys are errors wherever they come from; in the
-// environment, CLEARWAY_CONFIG names the file, and the few names of the clients are left alone.
+// `environment`: "NAME=value" each; CLEARWAY_CONFIG names the file. Unknown keys of the file and
+// unknown flags are errors; unknown variables are warnings, for others may have set them.
 absl::StatusOr<CommandLine> ReadCommandLine(const std::vector<std::string>& arguments,
                                             const std::vector<std::string>& environment);
 

@@ -23,15 +23,22 @@ absl::Status GoneError(const std::string& id) {
 
 }  // namespace
 
-void Leases::DropEnded() {
+Leases::LeaseMap Leases::TakeEnded() {
   const Clock::time_point now = options_.now();
-  std::erase_if(leases_, [&](const auto& entry) { return entry.second.end <= now; });
+  LeaseMap ended;
+  for (auto lease = leases_.begin(); lease != leases_.end();) {
+    const auto next = std::next(lease);
+    if (lease->second.end <= now) ended.insert(leases_.extract(lease));
+    lease = next;
+  }
+  return ended;
 }
 
 absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl) {
   const Duration granted = std::min(ttl, options_.max_ttl);
+  LeaseMap ended;  // freed after the lock
   std::lock_guard lock(mutex_);
-  DropEnded();
+  ended = TakeEnded();
   if (leases_.size() >= options_.max_leases) {
     return WithReason(absl::ResourceExhaustedError(
                           absl::StrCat("as many leases as allowed are held: ", leases_.size())),
@@ -45,8 +52,9 @@ absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl) {
 
 absl::StatusOr<LeaseGrant> Leases::Renew(const std::string& id, Duration ttl) {
   const Duration granted = std::min(ttl, options_.max_ttl);
+  LeaseMap ended;  // freed after the lock
   std::lock_guard lock(mutex_);
-  DropEnded();
+  ended = TakeEnded();
   const auto lease = leases_.find(id);
   if (lease == leases_.end()) return GoneError(id);
   lease->second.end = options_.now() + granted;
@@ -54,21 +62,24 @@ absl::StatusOr<LeaseGrant> Leases::Renew(const std::string& id, Duration ttl) {
 }
 
 absl::StatusOr<ScenePtr> Leases::Find(const std::string& id) {
+  LeaseMap ended;  // freed after the lock
   std::lock_guard lock(mutex_);
-  DropEnded();
+  ended = TakeEnded();
   const auto lease = leases_.find(id);
   if (lease == leases_.end()) return GoneError(id);
   return lease->second.scene;
 }
 
 void Leases::Release(const std::string& id) {
+  LeaseMap::node_type released;  // freed after the lock
   std::lock_guard lock(mutex_);
-  leases_.erase(id);
+  released = leases_.extract(id);
 }
 
 std::size_t Leases::size() {
+  LeaseMap ended;  // freed after the lock
   std::lock_guard lock(mutex_);
-  DropEnded();
+  ended = TakeEnded();
   return leases_.size();
 }
 

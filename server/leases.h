@@ -37,11 +37,14 @@ class Leases {
     ScenePtr scene;
     Clock::time_point end;
   };
-  void DropEnded();  // with the lock held
+  using LeaseMap = std::map<std::string, Lease>;
+  // Takes the leases that have ended out of the map, with the lock held. The caller frees them
+  // after the lock: one may be the last owner of a whole scene.
+  [[nodiscard]] LeaseMap TakeEnded();
 
   const Options options_;
   std::mutex mutex_;
-  std::map<std::string, Lease> leases_;
+  LeaseMap leases_;
 };
 
 }  // namespace clearway

@@ -57,11 +57,12 @@ int Main(const std::vector<std::string>& arguments) {
     spdlog::error("{}", std::string(line.status().message()));
     return kBadUsage;
   }
+  spdlog::set_level(spdlog::level::from_str(line->config.log_level));
+  for (const std::string& warning : line->warnings) spdlog::warn("{}", warning);
   if (!line->help.empty() || line->print_config) {
     std::fputs(line->help.empty() ? ToToml(line->config).c_str() : line->help.c_str(), stdout);
     return 0;
   }
-  spdlog::set_level(spdlog::level::from_str(line->config.log_level));
   return Serve(line->config);
 }
 

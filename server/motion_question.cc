@@ -21,7 +21,7 @@ absl::StatusOr<MotionQuestion> ReadMotionQuestion(const v1::CheckMotionsRequest&
   absl::StatusOr<MotionBatch> motions = ReadMotions(proto, robot.links.size(), limits);
   if (!motions.ok()) return motions.status();
   if (absl::Status status = Validate(*motions, robot); !status.ok()) return status;
-  return MotionQuestion{robot.links.size(), *std::move(options), *std::move(motions)};
+  return MotionQuestion{proto.robot_id(), *prepared, *std::move(options), *std::move(motions)};
 }
 
 }  // namespace clearway

@@ -1,6 +1,9 @@
 // What CheckMotions and WatchMotions are asked.
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "absl/status/statusor.h"
 #include "clearway/collision/motion.h"
 #include "clearway/v1/check_service.pb.h"
@@ -9,7 +12,8 @@
 namespace clearway {
 
 struct MotionQuestion {
-  std::size_t links;  // of the robot
+  std::string robot_id;
+  std::shared_ptr<const PreparedRobot> robot;
   MotionOptions options;
   MotionBatch motions;
 };

@@ -110,10 +110,16 @@ absl::StatusOr<std::shared_ptr<const SceneChecker>> Robots::CheckerFor(const std
                                                                        const ScenePtr& scene) {
   absl::StatusOr<std::shared_ptr<const PreparedRobot>> robot = Find(id);
   if (!robot.ok()) return robot.status();
+  return CheckerFor(id, *robot, scene);
+}
+
+std::shared_ptr<const SceneChecker> Robots::CheckerFor(
+    const std::string& id, const std::shared_ptr<const PreparedRobot>& robot,
+    const ScenePtr& scene) {
   if (auto checker = FindChecker(id, scene)) return checker;
   // Made without the lock, as it may take long; two calls may both make one, which is harmless.
   std::list<KnownChecker> entry;
-  entry.push_back({id, scene, std::make_shared<const SceneChecker>(scene, *robot)});
+  entry.push_back({id, scene, std::make_shared<const SceneChecker>(scene, robot)});
   auto checker = entry.front().checker;
   std::list<KnownChecker> dropped;  // freed after the lock
   std::lock_guard lock(mutex_);

@@ -27,9 +27,13 @@ class Robots {
   absl::StatusOr<std::string> Register(Robot robot);
   // NOT_FOUND for a robot that is not, or no longer, known.
   absl::StatusOr<std::shared_ptr<const PreparedRobot>> Find(const std::string& id);
-  // The robot's checker on the scene.
+  // The robot's checker on the scene; NOT_FOUND as Find.
   absl::StatusOr<std::shared_ptr<const SceneChecker>> CheckerFor(const std::string& id,
                                                                  const ScenePtr& scene);
+  // Likewise, of a robot that Find returned: for callers that hold it while it may be forgotten.
+  std::shared_ptr<const SceneChecker> CheckerFor(const std::string& id,
+                                                 const std::shared_ptr<const PreparedRobot>& robot,
+                                                 const ScenePtr& scene);
   std::size_t size() const;
 
  private:

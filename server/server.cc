@@ -3,72 +3,37 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
 #include "server/core.h"
+#include "server/listen_address.h"
 #include "server/pollers.h"
 #include "server/services.h"
 #include "server/status_interceptor.h"
+#include "server/tls_files.h"
+#include "spdlog/spdlog.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
 constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
-constexpr int kSpareThreads = 64;                       // of gRPC's own, beyond one per call
-
-absl::StatusOr<std::string> ReadPem(const char* key, const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream pem;
-  pem << file.rdbuf();
-  if (!file || pem.str().empty()) {
-    return absl::NotFoundError(absl::StrCat(key, ": cannot read ", path));
-  }
-  return pem.str();
-}
+constexpr int kMaxPingStrikes = 2;  // pings that come too early before a client is disconnected
+constexpr int kSpareThreads = 64;   // of gRPC's own, beyond one per call
 
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> CredentialsOf(const ServerConfig& config) {
   if (config.tls_cert.empty()) return grpc::InsecureServerCredentials();
-  absl::StatusOr<std::string> cert = ReadPem("tls_cert", config.tls_cert);
-  if (!cert.ok()) return cert.status();
-  absl::StatusOr<std::string> key = ReadPem("tls_key", config.tls_key);
-  if (!key.ok()) return key.status();
+  absl::StatusOr<TlsFiles> files = ReadTlsFiles(config.tls_cert, config.tls_key);
+  if (!files.ok()) return files.status();
+  if (!files->warning.empty()) spdlog::warn("{}", files->warning);
   grpc::SslServerCredentialsOptions options;
-  options.pem_key_cert_pairs.push_back({*key, *cert});
+  options.pem_key_cert_pairs.push_back({std::move(files->key), std::move(files->cert)});
   return grpc::SslServerCredentials(options);
-}
-
-// The address with the port that was bound.
-std::string BoundAddress(const std::string& listen, int port) {
-  const std::size_t colon = listen.rfind(':');
-  if (listen.rfind("unix:", 0) == 0 || colon == std::string::npos) return listen;
-  return absl::StrCat(listen.substr(0, colon + 1), port);
-}
-
-// gRPC would take the socket away from a server that listens there.
-absl::Status CheckSocketIsFree(const std::string& listen) {
-  sockaddr_un address{};
-  if (!listen.starts_with("unix:")) return absl::OkStatus();
-  const std::string_view path = std::string_view(listen).substr(5);
-  if (path.size() >= sizeof(address.sun_path)) return absl::OkStatus();  // gRPC says so itself
-  address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, path.size());
-  const int client = socket(AF_UNIX, SOCK_STREAM, 0);
-  const bool answers =
-      connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  close(client);
-  if (!answers) return absl::OkStatus();
-  return absl::AlreadyExistsError(absl::StrCat("listen: another server listens on ", listen));
 }
 
 void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
@@ -84,6 +49,22 @@ void SetLimits(const ServerLimits& limits, grpc::ServerBuilder& builder) {
   grpc::ResourceQuota quota("clearway");
   quota.SetMaxThreads(static_cast<int>(limits.max_calls) + kSpareThreads);
   builder.SetResourceQuota(quota);
+}
+
+// A peer that vanished without a word is found by pings, and its streams end.
+void SetKeepalive(const KeepaliveConfig& keepalive, grpc::ServerBuilder& builder) {
+  const auto set = [&](const char* argument, Duration duration) {
+    builder.AddChannelArgument(argument, static_cast<int>(duration.count() / 1'000'000));
+  };
+  set(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive.time);
+  set(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive.timeout);
+  // Connections without calls and streams without data are pinged as well, and may ping.
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  set(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, keepalive.min_client_ping);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, kMaxPingStrikes);
+  // Likewise one that connects and says nothing.
+  set(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, keepalive.time + keepalive.timeout);
 }
 
 // Until no call but open push streams is running; those may stay idle for ever.
@@ -123,14 +104,17 @@ ServerCore& Server::core() { return impl_->core; }
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config) {
   absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> credentials = CredentialsOf(config);
   if (!credentials.ok()) return credentials.status();
-  if (auto status = CheckSocketIsFree(config.listen); !status.ok()) return status;
+  absl::StatusOr<ListenAddress> listen = ParseListenAddress(config.listen);
+  if (!listen.ok()) return listen.status();
+  if (auto status = CheckCanListen(*listen); !status.ok()) return status;
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   auto impl = std::make_unique<Impl>(config);
   grpc::ServerBuilder builder;
   SetLimits(config.limits, builder);
+  SetKeepalive(config.keepalive, builder);
   int port = 0;
-  builder.AddListeningPort(config.listen, *credentials, &port);
+  builder.AddListeningPort(listen->ToString(), *credentials, &port);
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{
            &impl->check, &impl->follow, &impl->ingest, &impl->lease, &impl->map, &impl->object,
            &impl->occupancy, &impl->plan, &impl->info}) {
@@ -141,11 +125,11 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   impl->server = builder.BuildAndStart();
   if (impl->server == nullptr || port == 0) {
-    return absl::AlreadyExistsError(
-        absl::StrCat("listen: cannot listen on ", config.listen,
-                     "; is the address in use, or the socket's folder missing?"));
+    return absl::UnavailableError(absl::StrCat("listen: cannot listen on ", listen->ToString(),
+                                               "; gRPC's line above says why"));
   }
-  impl->address = BoundAddress(config.listen, port);
+  if (listen->socket_path.empty()) listen->port = port;  // the one that was chosen
+  impl->address = listen->ToString();
   impl->server->GetHealthCheckService()->SetServingStatus(true);
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }

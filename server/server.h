@@ -14,8 +14,8 @@ struct ServerCore;
 // A running server. Any thread may call any method; it ends with Drain or its destruction.
 class Server {
  public:
-  // Listens and serves. `config` must pass Validate. ALREADY_EXISTS if the address is taken or
-  // cannot be bound, NOT_FOUND for certificates that cannot be read.
+  // Listens and serves. `config` must pass Validate. Errors are those of CheckCanListen and
+  // ReadTlsFiles.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config);
   ~Server();
 

@@ -168,6 +168,12 @@ grpc::Status IngestHandlers::PushFrames(
     const ServerLimits& limits = core_.config.limits;
     const Slot slot(core_.push_streams, limits.max_push_streams);
     if (!slot.ok()) return TooMany("push streams", limits.max_push_streams);
+    if (core_.draining) {
+      return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
+    }
+    // Tells the client that the stream is open before there is anything to answer.
+    context->AddInitialMetadata("clearway-server-instance", core_.instance);
+    stream->SendInitialMetadata();
     const Gone gone = GoneOf(context);
     AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, gone);
     v1::PushFramesRequest request;

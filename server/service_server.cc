@@ -1,4 +1,5 @@
 #include "server/handler.h"
+#include "server/memory_use.h"
 #include "server/queries.h"
 #include "server/services.h"
 #include "wire/server_wire.h"
@@ -40,6 +41,10 @@ grpc::Status InfoHandlers::GetStatus(grpc::ServerContext*, const v1::GetStatusRe
     status.leases = core_.leases.size();
     status.follow_streams = core_.follow_streams;
     status.push_streams = core_.push_streams;
+    status.watch_streams = core_.watch_streams;
+    const MemoryUse memory = CurrentMemoryUse();
+    status.resident_bytes = memory.resident_bytes;
+    status.heap_bytes_in_use = memory.heap_bytes_in_use;
     Write(status, response);
     return absl::OkStatus();
   });

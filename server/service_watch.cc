@@ -8,16 +8,15 @@ namespace clearway {
 namespace {
 
 // What is left of the motions at a version's stamp is put to it; what is over counts as free.
-absl::StatusOr<MotionReply> AskVersion(ServerCore& core, const std::string& robot_id,
-                                       const MotionQuestion& question, const ScenePtr& scene,
-                                       const Gone& gone) {
-  const auto checker = core.robots.CheckerFor(robot_id, scene);
-  if (!checker.ok()) return checker.status();
+absl::StatusOr<MotionReply> AskVersion(ServerCore& core, const MotionQuestion& question,
+                                       const ScenePtr& scene, const Gone& gone) {
+  const auto checker = core.robots.CheckerFor(question.robot_id, question.robot, scene);
   if (question.options.world_at) {
-    return (*checker)->CheckMotions(question.motions, question.options, gone);
+    return checker->CheckMotions(question.motions, question.options, gone);
   }
-  const MotionRest rest = RestOf(question.motions, question.links, scene->stamp);
-  auto reply = (*checker)->CheckMotions(rest.motions, question.options, gone);
+  const std::size_t links = question.robot->robot().links.size();
+  const MotionRest rest = RestOf(question.motions, links, scene->stamp);
+  auto reply = checker->CheckMotions(rest.motions, question.options, gone);
   if (!reply.ok()) return reply.status();
   std::vector<MotionAnswer> answers(question.motions.knot_counts.size());
   std::size_t end = 0;
@@ -68,7 +67,7 @@ absl::Status Watch(ServerCore& core, const v1::CheckMotionsRequest& request, con
     }
     if (scene == nullptr) continue;
     wanted = scene->version + 1;
-    const auto reply = AskVersion(core, request.robot_id(), *question, scene, gone);
+    const auto reply = AskVersion(core, *question, scene, gone);
     if (!reply.ok()) return reply.status();
     v1::WatchMotionsResponse response;
     if (!changes.Note(*reply, response)) continue;

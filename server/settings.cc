@@ -140,6 +140,12 @@ std::vector<Setting> ServerSettings() {
       CLEARWAY_SETTING("writer_niceness", writer_niceness,
                        "how far answers come before frames on a busy machine: 0 to 19"),
       CLEARWAY_SETTING("kept_versions", kept_versions, "older versions kept for mirrors"),
+      CLEARWAY_SETTING("keepalive.time_s", keepalive.time,
+                       "seconds without a sign of a client before the server pings it: 1 to 3600"),
+      CLEARWAY_SETTING("keepalive.timeout_s", keepalive.timeout,
+                       "seconds for the answer, else the connection is dropped: 1 to 600"),
+      CLEARWAY_SETTING("keepalive.min_client_ping_s", keepalive.min_client_ping,
+                       "clients that ping more often are disconnected: 0.1 to 3600"),
   };
 }
 

@@ -1,5 +1,6 @@
 // clearway replay: frames of any source to a server.
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -35,6 +36,7 @@ struct Flags {
   std::size_t from = 0;
   std::optional<std::size_t> to;
   std::string wait = "applied";
+  double reconnect_for_s = 60;
   bool keep_going = false;
   bool quiet = false;
   bool json = false;
@@ -79,11 +81,28 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
   return absl::OkStatus();
 }
 
-Json AsJson(const AckTally::Counts& counts, double seconds) {
+// Says when the connection is lost and when it is back.
+ReconnectOptions Reconnect(const Flags& flags, std::function<void(const std::string&)> note) {
+  ReconnectOptions reconnect;
+  reconnect.give_up_after = FromSeconds(flags.reconnect_for_s);
+  reconnect.on_change = [address = flags.server.address, note](const StreamState& state) {
+    if (!state.connected) {
+      note(absl::StrCat("note: the connection to ", address, " is lost (",
+                        std::string(state.last_error.message()), "); trying again"));
+    } else if (state.reconnects > 0) {
+      note(absl::StrCat("note: connected to ", address,
+                        " again; frames without an answer are sent again"));
+    }
+  };
+  return reconnect;
+}
+
+Json AsJson(const AckTally::Counts& counts, std::uint64_t reconnects, double seconds) {
   Json json = {{"frames", counts.answered},
                {"applied", counts.answered - counts.refused},
                {"refused", counts.refused},
                {"repeated", counts.repeated},
+               {"reconnects", reconnects},
                {"points", counts.points},
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
@@ -152,14 +171,19 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   }
 
   AckTally tally;
-  FrameSender sender(*connection);
-  const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
-  absl::Status status = sender.OpenStream(tally.OnAck(), wait_for);
-  if (!status.ok()) return status;
   std::ostream nowhere(nullptr);
   ProgressBar progress(flags.quiet ? nowhere : terminal.err, terminal.err_is_terminal,
                        end - flags.from);
+  const auto note = [&](const std::string& line) {
+    if (!flags.quiet) return progress.Note(line);
+    terminal.err << line << std::endl;  // a lost connection is no progress
+  };
+  FrameSender sender(*connection);  // its stream uses what stands above
+  const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
+  absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, note));
+  if (!status.ok()) return status;
   status = SendAll(*source, flags.from, end, flags, sender, tally, progress);
+  const std::uint64_t reconnects = sender.state().reconnects;
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
   const AckTally::Counts counts = tally.counts();
@@ -168,7 +192,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!status.ok()) return status;
 
   if (flags.json) {
-    Print(terminal.out, AsJson(counts, progress.state().elapsed_s));
+    Print(terminal.out, AsJson(counts, reconnects, progress.state().elapsed_s));
   } else {
     PrintText(terminal.out, counts);
   }
@@ -200,6 +224,13 @@ void AddReplay(Cli& cli) {
   command->add_option("--to", flags->to, "Last frame (default: the source's last)");
   command->add_option("--wait", flags->wait, "When a frame counts as done: accepted or applied")
       ->check(CLI::IsMember({"accepted", "applied"}).description(""))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--reconnect-for", flags->reconnect_for_s,
+          "Longest time to try again when the connection is lost, in\nseconds; 0 to give up "
+          "at once")
+      ->check(Between(0, 1e6))
       ->capture_default_str();
   command->add_flag("--keep-going", flags->keep_going,
                     "Go on after a refused frame (the exit code is 1 still)");

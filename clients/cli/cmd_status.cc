@@ -37,7 +37,10 @@ Json AsJson(const ServerStatus& s) {
                    {"robots", s.robots},
                    {"leases", s.leases},
                    {"follow_streams", s.follow_streams},
-                   {"push_streams", s.push_streams}});
+                   {"push_streams", s.push_streams},
+                   {"watch_streams", s.watch_streams},
+                   {"resident_bytes", s.resident_bytes},
+                   {"heap_bytes_in_use", s.heap_bytes_in_use}});
   return json;
 }
 
@@ -58,8 +61,11 @@ void PrintText(std::ostream& out, const std::string& address, const ServerStatus
   }
   out << "objects     " << s.objects << "\n"
       << "clients     " << Plural(s.push_streams, "push stream") << ", "
-      << Plural(s.follow_streams, "follow stream") << ", " << Plural(s.leases, "lease") << ", "
-      << Plural(s.robots, "robot") << "\n";
+      << Plural(s.follow_streams, "follow stream") << ", "
+      << Plural(s.watch_streams, "watch stream") << ", " << Plural(s.leases, "lease") << ", "
+      << Plural(s.robots, "robot") << "\n"
+      << "memory      " << Grouped(s.resident_bytes >> 20) << " MiB resident, "
+      << Grouped(s.heap_bytes_in_use >> 20) << " MiB handed out by the heap\n";
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {

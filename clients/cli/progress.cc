@@ -64,11 +64,19 @@ void ProgressBar::Finish() {
   finished_ = true;
   // A line that already says so need not be repeated; a terminal's is redrawn.
   if (is_terminal_ || drawn_ != state_.done) Draw();
-  if (is_terminal_) out_ << "\n" << std::flush;
+  if (!is_terminal_) return;
+  const std::lock_guard lock(writing_);
+  out_ << "\n" << std::flush;
+}
+
+void ProgressBar::Note(const std::string& line) {
+  const std::lock_guard lock(writing_);
+  out_ << (is_terminal_ ? "\r" : "") << line << (is_terminal_ ? "\x1b[K\n" : "\n") << std::flush;
 }
 
 void ProgressBar::Draw() {
   drawn_ = state_.done;
+  const std::lock_guard lock(writing_);
   if (is_terminal_) {
     // Back to the line's start; clear what a longer line before left behind.
     out_ << "\r" << ProgressText(state_, kBarColumns) << "\x1b[K" << std::flush;

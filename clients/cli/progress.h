@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -21,8 +22,8 @@ struct ProgressState {
 // bar_columns is 0.
 std::string ProgressText(const ProgressState& state, int bar_columns);
 
-// Shows the progress of one command. Used by one thread. Draws at most ten times a second on a
-// terminal and one line in two seconds elsewhere.
+// Shows the progress of one command. Draws at most ten times a second on a terminal and one line in
+// two seconds elsewhere. Used by one thread, except for Note.
 class ProgressBar {
  public:
   ProgressBar(std::ostream& out, bool is_terminal, std::size_t total);
@@ -30,11 +31,14 @@ class ProgressBar {
   void Update(std::size_t done, std::uint64_t points);
   // Draws the last state, and leaves the cursor on a new line. Afterwards Update does nothing.
   void Finish();
+  // Prints a line of its own between the states. Any thread may call it.
+  void Note(const std::string& line);
   const ProgressState& state() const { return state_; }
 
  private:
   void Draw();
 
+  std::mutex writing_;  // to out_
   std::ostream& out_;
   const bool is_terminal_;
   const std::chrono::steady_clock::time_point start_;

@@ -1,6 +1,8 @@
 #include "clearway/client/connection.h"
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "absl/strings/str_cat.h"
@@ -22,20 +24,35 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
     return absl::NotFoundError(absl::StrCat("tls_root_certificates_file: cannot read ",
                                             options.tls_root_certificates_file));
   }
+  if (pem.str().find("-----BEGIN ") == std::string::npos) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file,
+                     " holds no certificate in PEM"));
+  }
   grpc::SslCredentialsOptions tls;
   tls.pem_root_certs = pem.str();
   return grpc::SslCredentials(tls);
 }
 
-grpc::ChannelArguments ArgumentsOf() {
+int Milliseconds(Duration duration) {
+  constexpr std::int64_t kMax = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp<std::int64_t>(duration.count() / 1'000'000, 1, kMax));
+}
+
+grpc::ChannelArguments ArgumentsOf(const ConnectionOptions& options) {
   grpc::ChannelArguments arguments;
   // The server's limits hold; the client sets none of its own.
   arguments.SetMaxReceiveMessageSize(-1);
   arguments.SetMaxSendMessageSize(-1);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  // Also the least time that one attempt is given: a busy server needs more than 100 ms to answer.
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1000);
+  // The time that one attempt may take, not a pause: TLS over a slow link needs seconds.
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(options.keepalive_time));
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, Milliseconds(options.keepalive_timeout));
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // Without limit: a stream may be silent for hours.
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   // A channel of its own: two connections of one process are two clients to the server.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return arguments;
@@ -66,7 +83,7 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   auto impl = std::make_unique<Impl>();
   impl->address = address;
   impl->options = options;
-  impl->channel = grpc::CreateCustomChannel(address, *credentials, ArgumentsOf());
+  impl->channel = grpc::CreateCustomChannel(address, *credentials, ArgumentsOf(options));
   impl->check = v1::CheckService::NewStub(impl->channel);
   impl->follow = v1::FollowService::NewStub(impl->channel);
   impl->ingest = v1::IngestService::NewStub(impl->channel);

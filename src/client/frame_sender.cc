@@ -1,95 +1,13 @@
 #include "clearway/client/frame_sender.h"
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include <algorithm>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "client/call.h"
+#include "client/push_stream.h"
 #include "wire/frame_wire.h"
-#include "wire/status.h"
 
 namespace clearway {
-namespace {
-
-// One open stream and the thread that reads its answers.
-class PushStream {
- public:
-  PushStream(v1::IngestService::Stub& stub, std::size_t window, AckLevel wait_for,
-             FrameSender::OnAck on_ack)
-      : window_(window),
-        wait_for_(wait_for),
-        on_ack_(std::move(on_ack)),
-        stream_(stub.PushFrames(&context_)),
-        reader_([this] { ReadAnswers(); }) {}
-
-  ~PushStream() {
-    if (!reader_.joinable()) return;
-    context_.TryCancel();
-    reader_.join();
-    (void)stream_->Finish();  // abandoned: the caller did not ask how it went
-  }
-
-  absl::Status Send(v1::PushFramesRequest request) {
-    request.set_wait_for(ToProto(wait_for_));
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return ended_ || unanswered_ < window_; });
-      if (ended_) return absl::UnavailableError("the stream has ended");
-      ++unanswered_;
-    }
-    if (!stream_->Write(request)) return absl::UnavailableError("the stream is broken");
-    return absl::OkStatus();
-  }
-
-  absl::Status Close() {
-    stream_->WritesDone();
-    reader_.join();
-    const absl::Status status = FromGrpc(stream_->Finish());
-    if (!status.ok() || unanswered_ == 0) return status;
-    return absl::DataLossError(
-        absl::StrCat("the stream ended with ", unanswered_, " frames unanswered"));
-  }
-
-  std::size_t unanswered() const {
-    std::lock_guard lock(mutex_);
-    return unanswered_;
-  }
-
- private:
-  void ReadAnswers() {
-    v1::PushFramesResponse response;
-    while (stream_->Read(&response)) {
-      if (response.has_error()) {
-        on_ack_(response.sensor_id(), response.sequence(), FromProto(response.error()));
-      } else {
-        on_ack_(response.sensor_id(), response.sequence(), ReadPushAck(response.ack()));
-      }
-      std::lock_guard lock(mutex_);
-      --unanswered_;
-      changed_.notify_all();
-    }
-    std::lock_guard lock(mutex_);
-    ended_ = true;
-    changed_.notify_all();
-  }
-
-  const std::size_t window_;
-  const AckLevel wait_for_;
-  const FrameSender::OnAck on_ack_;
-  grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<v1::PushFramesRequest, v1::PushFramesResponse>> stream_;
-
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::size_t unanswered_ = 0;
-  bool ended_ = false;
-  std::thread reader_;
-};
-
-}  // namespace
-
 struct FrameSender::Impl {
   absl::StatusOr<PushAck> Push(const v1::PushFrameRequest& request) const {
     auto response = Call(connection->options(), *connection->impl().ingest,
@@ -131,12 +49,17 @@ absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, const DepthImage& 
   return impl_->Push(request);
 }
 
-absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for) {
+absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for,
+                                     const ReconnectOptions& reconnect) {
   if (impl_->stream != nullptr) return absl::FailedPreconditionError("a stream is already open");
-  const std::size_t window =
+  PushStream::Options options;
+  options.window =
       std::max<std::uint64_t>(1, impl_->connection->server().limits.max_frames_in_flight);
-  impl_->stream = std::make_unique<PushStream>(*impl_->connection->impl().ingest, window, wait_for,
-                                               std::move(on_ack));
+  options.wait_for = wait_for;
+  options.on_ack = std::move(on_ack);
+  options.reconnect = reconnect;
+  impl_->stream =
+      std::make_unique<PushStream>(*impl_->connection->impl().ingest, std::move(options));
   return absl::OkStatus();
 }
 
@@ -153,6 +76,10 @@ absl::Status FrameSender::CloseStream() {
   const absl::Status status = impl_->stream->Close();
   impl_->stream.reset();
   return status;
+}
+
+StreamState FrameSender::state() const {
+  return impl_->stream == nullptr ? StreamState{} : impl_->stream->state();
 }
 
 std::size_t FrameSender::unanswered() const {

@@ -1,12 +1,52 @@
 #include "clearway/client/remote_planner.h"
 
+#include <thread>
+#include <utility>
+
 #include "client/call.h"
+#include "client/reconnector.h"
 #include "client/registered_robot.h"
 #include "wire/motion_wire.h"
 #include "wire/plan_wire.h"
 #include "wire/scene_wire.h"
 
 namespace clearway {
+namespace {
+
+// Nothing is known of the motions.
+MotionReply Unresolved(const MotionBatch& motions) {
+  MotionReply reply;
+  std::size_t knot = 0;
+  for (const std::size_t knots : motions.knot_counts) {
+    reply.answers.push_back({SpaceStatus::kUnresolved, motions.times[knot], std::nullopt});
+    knot += knots;
+  }
+  return reply;
+}
+
+// What is new to someone who was told of each reply.
+class NewsOf {
+ public:
+  explicit NewsOf(std::size_t motions) : free_(motions, true) {}
+
+  RemotePlanner::News operator()(MotionReply reply, absl::Status connection = {}) {
+    RemotePlanner::News news;
+    for (std::size_t m = 0; m < free_.size(); ++m) {
+      const bool free = reply.answers[m].status == SpaceStatus::kFree;
+      if (free_[m] && !free) news.broken.push_back(m);
+      if (!free_[m] && free) news.mended.push_back(m);
+      free_[m] = free;
+    }
+    news.reply = std::move(reply);
+    news.connection = std::move(connection);
+    return news;
+  }
+
+ private:
+  std::vector<bool> free_;
+};
+
+}  // namespace
 
 struct RemotePlanner::Impl {
   explicit Impl(RegisteredRobot r) : registered(std::move(r)) {}
@@ -14,8 +54,9 @@ struct RemotePlanner::Impl {
   std::size_t links() const { return registered.robot().links.size(); }
   absl::StatusOr<PlanOutcome> PlanOnce(const v1::PlanRequest& request, const PlanTask& task,
                                        const std::function<bool(const clearway::Plan&)>& found);
+  // Until the stream ends, or take(reply) says false: then OK.
   absl::Status WatchOnce(const v1::WatchMotionsRequest& request, std::size_t motions,
-                         const std::function<bool(const News&)>& tell);
+                         const std::function<bool(MotionReply)>& take);
 
   RegisteredRobot registered;
 };
@@ -48,7 +89,7 @@ absl::StatusOr<PlanOutcome> RemotePlanner::Impl::PlanOnce(
 
 absl::Status RemotePlanner::Impl::WatchOnce(const v1::WatchMotionsRequest& request,
                                             std::size_t motions,
-                                            const std::function<bool(const News&)>& tell) {
+                                            const std::function<bool(MotionReply)>& take) {
   grpc::ClientContext context;
   const auto stream = registered.connection()->impl().check->WatchMotions(&context, request);
   absl::Status broken;
@@ -57,10 +98,7 @@ absl::Status RemotePlanner::Impl::WatchOnce(const v1::WatchMotionsRequest& reque
   while (!enough && broken.ok() && stream->Read(&response)) {
     auto reply = ReadMotionReply(response.answers(), motions);
     broken = reply.status();
-    if (!reply.ok()) continue;
-    enough = !tell({*std::move(reply),
-                    {response.broken().begin(), response.broken().end()},
-                    {response.mended().begin(), response.mended().end()}});
+    if (reply.ok()) enough = !take(*std::move(reply));
   }
   if (enough || !broken.ok()) context.TryCancel();
   const absl::Status status = FromGrpc(stream->Finish());
@@ -91,15 +129,38 @@ absl::StatusOr<PlanOutcome> RemotePlanner::Plan(
 }
 
 absl::Status RemotePlanner::Watch(const MotionBatch& motions, const MotionOptions& options,
-                                  const std::function<bool(const News&)>& tell) const {
+                                  const std::function<bool(const News&)>& tell,
+                                  const ReconnectOptions& reconnect) const {
   if (auto status = Validate(motions, impl_->registered.robot()); !status.ok()) return status;
+  const std::size_t count = motions.knot_counts.size();
   v1::WatchMotionsRequest request;
   request.mutable_motions()->set_robot_id(impl_->registered.id());
   Write(options, request.mutable_motions());
-  WriteMotions(motions, impl_->links(), 0, motions.knot_counts.size(), 0,
-               request.mutable_motions());
-  return impl_->registered.Ask(
-      [&] { return impl_->WatchOnce(request, motions.knot_counts.size(), tell); });
+  WriteMotions(motions, impl_->links(), 0, count, 0, request.mutable_motions());
+  Reconnector reconnector(reconnect);
+  NewsOf news(count);
+  bool enough = false, lost = false;
+  const auto take = [&](MotionReply reply) {
+    reconnector.Connected();
+    enough = !tell(news(std::move(reply)));
+    return !enough;
+  };
+  while (true) {
+    absl::Status status =
+        impl_->registered.Ask([&] { return impl_->WatchOnce(request, count, take); });
+    if (enough) return absl::OkStatus();
+    // A server that shuts down may also just end or cancel the stream.
+    if (status.ok() || absl::IsCancelled(status)) {
+      status = absl::UnavailableError("the server ended the watch");
+    }
+    if (!absl::IsUnavailable(status)) return status;
+    const bool just_lost = !lost || reconnector.state().connected;
+    const std::optional<Duration> pause = reconnector.Lost(status);
+    if (!pause) return status;
+    lost = true;
+    if (just_lost && !tell(news(Unresolved(motions), status))) return absl::OkStatus();
+    std::this_thread::sleep_for(*pause);
+  }
 }
 
 }  // namespace clearway

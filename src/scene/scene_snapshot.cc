@@ -10,7 +10,8 @@
 namespace clearway {
 namespace {
 
-// Feeds a scene's content to XXH3 in one canonical order.
+// Feeds a scene's content to XXH3 in one canonical order. As operator== takes -0.0 and 0.0 for the
+// same number, so does the hash.
 class ContentHasher {
  public:
   ContentHasher() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
@@ -19,15 +20,20 @@ class ContentHasher {
   ContentHasher& operator=(const ContentHasher&) = delete;
 
   void Add(std::int64_t value) { XXH3_128bits_update(state_, &value, sizeof value); }
-  void Add(double value) { XXH3_128bits_update(state_, &value, sizeof value); }
+  void Add(double value) {
+    value += 0.0;  // -0.0 becomes 0.0, every other number stays
+    XXH3_128bits_update(state_, &value, sizeof value);
+  }
   void Add(Time time) { Add(ToNanoseconds(time)); }
-  void Add(const Eigen::Vector3d& v) { XXH3_128bits_update(state_, v.data(), 3 * sizeof(double)); }
+  void Add(const Eigen::Vector3d& v) {
+    for (const double value : v) Add(value);
+  }
   void Add(const Aabb& box) {
     Add(box.min);
     Add(box.max);
   }
   void Add(const Pose& pose) {
-    XXH3_128bits_update(state_, pose.rotation.coeffs().data(), 4 * sizeof(double));
+    for (const double value : pose.rotation.coeffs()) Add(value);
     Add(pose.translation);
   }
   void Add(const Twist& twist) {

@@ -102,6 +102,9 @@ void Write(const ServerStatus& status, v1::GetStatusResponse* proto) {
   proto->set_leases(status.leases);
   proto->set_follow_streams(status.follow_streams);
   proto->set_push_streams(status.push_streams);
+  proto->set_watch_streams(status.watch_streams);
+  proto->set_resident_bytes(status.resident_bytes);
+  proto->set_heap_bytes_in_use(status.heap_bytes_in_use);
   if (!status.static_box_W.Empty()) Write(status.static_box_W, proto->mutable_static_box_world());
 }
 
@@ -123,6 +126,9 @@ absl::StatusOr<ServerStatus> ReadServerStatus(const v1::GetStatusResponse& proto
   status.leases = proto.leases();
   status.follow_streams = proto.follow_streams();
   status.push_streams = proto.push_streams();
+  status.watch_streams = proto.watch_streams();
+  status.resident_bytes = proto.resident_bytes();
+  status.heap_bytes_in_use = proto.heap_bytes_in_use();
   if (!proto.has_static_box_world()) return status;
   FieldReader read;
   status.static_box_W = read.Box("static_box_world", true, proto.static_box_world());

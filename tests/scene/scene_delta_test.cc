@@ -286,5 +286,41 @@ TEST_F(SceneDeltaRefusalTest, ResolutionCannotChange) {
   EXPECT_EQ(Apply(versions_[1].get(), delta_).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+// -0.0 and 0.0 are one number: what Diff leaves out is no difference to the hash either.
+TEST(SceneDelta, ZerosOfEitherSignAreEqual) {
+  ThreadPool pool(1);
+  SceneBuilder builder(SceneParams{}, {}, pool);
+  Frame frame = FrameAt(1);
+  AddPoint(frame, 4, {3, 0, 0});
+  ASSERT_TRUE(builder.Apply(frame).ok());
+  builder.SetKeepOut({{{0, 0, 0}, {1, 1, 1}}});
+  const ScenePtr from = builder.Publish();
+  SceneSnapshot to = *from;
+  to.params.keep_out_W.front().min = {-0.0, -0.0, -0.0};
+  auto object = std::make_shared<MovingObject>(*to.objects.front());
+  for (StampedPose& stamped : object->history) {
+    stamped.T_W_O.translation.z() = 0;
+    stamped.T_W_O.rotation = Eigen::Quaterniond(1, -0.0, 0, -0.0);
+  }
+  object->velocity_O = Twist{};
+  SceneSnapshot twin = to;
+  to.objects = {object};
+  auto mirrored = std::make_shared<MovingObject>(*object);
+  for (StampedPose& stamped : mirrored->history) {
+    stamped.T_W_O.translation.z() = -0.0;
+    stamped.T_W_O.rotation = Eigen::Quaterniond(1, 0, -0.0, 0);
+  }
+  mirrored->velocity_O = Twist{{-0.0, 0, 0}, {0, -0.0, 0}};
+  twin.objects = {mirrored};
+  EXPECT_TRUE(SameContent(to, twin));
+  EXPECT_EQ(to.Hash(), twin.Hash());
+  EXPECT_FALSE(Diff(from.get(), to).params);
+  to.version = from->version + 1;
+  const auto applied = Apply(from.get(), Diff(from.get(), to));
+  ASSERT_TRUE(applied.ok()) << applied.status();
+  EXPECT_TRUE(SameContent(*applied, to));
+  EXPECT_EQ(applied->Hash(), to.Hash());
+}
+
 }  // namespace
 }  // namespace clearway

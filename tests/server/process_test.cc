@@ -211,17 +211,31 @@ TEST(ServerProcess, RefusesAPortInUse) {
   Process dut({"--listen", address});
   EXPECT_EQ(dut.Address(), "");
   EXPECT_EQ(dut.Wait(), 1);
-  EXPECT_NE(dut.RestOfOutput().find(address), std::string::npos);
+  EXPECT_THAT(dut.RestOfOutput(), testing::HasSubstr(address + " is in use"));
 }
 
-TEST(ServerProcess, RefusesUnknownKeys) {
-  for (const auto& [arguments, environment] :
-       std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>{
-           {{"--scene-resolution", "1"}, {}}, {{}, {"CLEARWAY_COLOUR=red"}}}) {
-    Process dut(arguments, environment);
-    EXPECT_EQ(dut.Address(), "");
-    EXPECT_EQ(dut.Wait(), 2);
-  }
+TEST(ServerProcess, RefusesUnknownFlags) {
+  Process dut({"--scene-resolution", "1"});
+  EXPECT_EQ(dut.Address(), "");
+  EXPECT_EQ(dut.Wait(), 2);
+}
+
+TEST(ServerProcess, StartsWithVariablesOfOthersAndWarns) {
+  Process dut({"--listen", "127.0.0.1:0"},
+              {"CLEARWAY_SERVICE_HOST=10.0.0.1", "CLEARWAY_PORT=tcp://10.0.0.1:50151",
+               "CLEARWAY_COLOUR=red"});
+  EXPECT_NE(dut.Address(), "");
+  dut.Signal(SIGTERM);
+  EXPECT_EQ(dut.Wait(), 0);
+  const std::string output = dut.RestOfOutput();
+  EXPECT_THAT(output, testing::HasSubstr("CLEARWAY_SERVICE_HOST, CLEARWAY_PORT look like"));
+  EXPECT_THAT(output, testing::HasSubstr("CLEARWAY_COLOUR is not a setting"));
+}
+
+TEST(ServerProcess, ListensOnAnAddressWithGrpcsPrefix) {
+  Process dut({"--listen", "ipv4:127.0.0.1:0"});
+  const auto connection = Connection::Open(dut.Address());
+  EXPECT_TRUE(connection.ok()) << connection.status();
 }
 
 TEST(ServerProcess, RefusesToBeReachedFromElsewhereWithoutTls) {
@@ -252,8 +266,27 @@ TEST(ServerProcess, ServesTls) {
   const auto connection = Connection::Open("localhost" + port, options);
   ASSERT_TRUE(connection.ok()) << connection.status();
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+  options.tls_root_certificates_file = folder.Write("words.pem", "words").string();
+  EXPECT_TRUE(absl::IsInvalidArgument(Connection::Open(address, options).status()));
   options.tls_root_certificates_file = (folder / "missing.pem").string();
   EXPECT_TRUE(absl::IsNotFound(Connection::Open(address, options).status()));
+}
+
+TEST(ServerProcess, RefusesAKeyOfAnotherCertificate) {
+  const TemporaryFolder folder;
+  for (const char* name : {"ours", "other"}) {
+    const std::string path = (folder / name).string();
+    const std::string make =
+        "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj /CN=localhost "
+        "-keyout " +
+        path + ".key -out " + path + ".cert 2>/dev/null";
+    if (std::system(make.c_str()) != 0) GTEST_SKIP() << "openssl is missing";
+  }
+  Process dut({"--listen", "127.0.0.1:0", "--tls-cert", (folder / "ours.cert").string(),
+               "--tls-key", (folder / "other.key").string()});
+  EXPECT_EQ(dut.Address(), "");
+  EXPECT_THAT(dut.RestOfOutput(), testing::HasSubstr("other.key does not belong to tls_cert"));
+  EXPECT_EQ(dut.Wait(), 1);
 }
 
 TEST(ServerProcess, RefusesCertificatesThatCannotBeRead) {

@@ -17,6 +17,12 @@ struct ConnectionOptions {
   // How long a call that ends with UNAVAILABLE (and no other) is tried again, with growing pauses;
   // zero: once. Never beyond `deadline`.
   Duration retry_for = std::chrono::seconds(5);
+  // The server is pinged when nothing came from it for `keepalive_time`, also between calls; the
+  // connection is lost when it does not answer within `keepalive_timeout`. This keeps connections
+  // alive behind NATs and finds vanished networks. Servers refuse clients that ping more often than
+  // their keepalive.min_client_ping_s allows (4 s by default).
+  Duration keepalive_time = std::chrono::seconds(10);
+  Duration keepalive_timeout = std::chrono::seconds(20);
   // TLS with these root certificates (a PEM file); empty: plain text, for loopback and Unix
   // sockets.
   std::string tls_root_certificates_file = {};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "clearway/client/connection.h"
+#include "clearway/client/stream_state.h"
 #include "clearway/scene/depth_image.h"
 #include "clearway/scene/frame.h"
 #include "clearway/wire/push_ack.h"
@@ -35,16 +36,21 @@ class FrameSender {
                                    const absl::StatusOr<PushAck>& answer)>;
 
   // Opens a stream. `on_ack` is called once per answered frame, in the order sent, from a thread of
-  // the sender's own.
-  absl::Status OpenStream(OnAck on_ack, AckLevel wait_for = AckLevel::kApplied);
-  // Sends the next frame; waits while the window (the server's max_frames_in_flight) is full. An
-  // error means that the stream is broken: CloseStream says why.
+  // the sender's own. When the connection is lost or the server restarts, the stream is opened
+  // again, and frames without an answer are sent again in their order. With kAccepted, frames that
+  // the server accepted but had not applied are lost with it.
+  absl::Status OpenStream(OnAck on_ack, AckLevel wait_for = AckLevel::kApplied,
+                          const ReconnectOptions& reconnect = {});
+  // Queues the next frame; waits while the window (the server's max_frames_in_flight) is full, and
+  // so while the connection is lost. An error means that the stream has ended: CloseStream says
+  // why.
   absl::Status Send(const Frame& frame);
   absl::Status Send(const Frame& frame, const DepthImage& image);
   // Waits for all answers and ends the stream. A frame that was sent but never answered is an
   // error.
   absl::Status CloseStream();
 
+  StreamState state() const;       // of the open stream
   std::size_t unanswered() const;  // frames sent without an answer yet
 
  private:

@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "clearway/client/connection.h"
+#include "clearway/client/stream_state.h"
 #include "clearway/collision/plan_task.h"
 #include "clearway/wire/answers.h"
 
@@ -33,11 +35,17 @@ class RemotePlanner {
     // Which of them were free before (or are asked about for the first time) and are not, and the
     // other way round.
     std::vector<std::size_t> broken, mended;
+    // Not OK when the connection was lost: nothing is known of any motion until the next news, and
+    // all of them are kUnresolved in a reply of version 0.
+    absl::Status connection;
   };
   // Tells of the motions on the newest version at once, and then whenever a version makes one free
-  // or not, until `tell` says false (then OK) or the transport fails. Blocks meanwhile.
+  // or not, until `tell` says false (then OK), the server refuses the watch, or the connection has
+  // been lost for longer than `reconnect` allows. A lost connection is told once, and the motions
+  // anew when it is back; a server that restarted gets the robot again. Blocks meanwhile.
   absl::Status Watch(const MotionBatch& motions, const MotionOptions& options,
-                     const std::function<bool(const News&)>& tell) const;
+                     const std::function<bool(const News&)>& tell,
+                     const ReconnectOptions& reconnect = {}) const;
 
  private:
   struct Impl;

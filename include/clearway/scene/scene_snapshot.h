@@ -53,7 +53,7 @@ struct SceneSnapshot {
 
 using ScenePtr = std::shared_ptr<const SceneSnapshot>;
 
-// Equal in all but `version`, bit for bit.
+// Equal in all but `version`, number by number; equal scenes have equal hashes.
 bool SameContent(const SceneSnapshot& a, const SceneSnapshot& b);
 
 }  // namespace clearway

@@ -64,7 +64,9 @@ struct ServerStatus : Versioned {
   std::uint64_t objects = 0;
   std::uint64_t static_observed_voxels = 0, static_occupied_voxels = 0;
   Aabb static_box_W;  // around the observed blocks
-  std::uint64_t robots = 0, leases = 0, follow_streams = 0, push_streams = 0;
+  std::uint64_t robots = 0, leases = 0, follow_streams = 0, push_streams = 0, watch_streams = 0;
+  // Of the server's process: what is in memory, and what its heap has handed out, touched or not.
+  std::uint64_t resident_bytes = 0, heap_bytes_in_use = 0;
 };
 
 }  // namespace clearway

@@ -1,0 +1,202 @@
+#include "server/listen_address.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+constexpr int kMaxPort = 65535;
+constexpr std::size_t kMaxSocketPath = sizeof(sockaddr_un::sun_path) - 1;
+
+absl::Status Bad(const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat("listen: ", what));
+}
+
+absl::StatusOr<ListenAddress> ParseSocket(const std::string& path) {
+  if (path.empty()) return Bad("unix: names no path");
+  if (path.starts_with("//") && !path.starts_with("///")) {
+    return Bad(absl::StrCat("unix:", path, " is no path; write unix:relative or unix:/absolute"));
+  }
+  if (path.size() > kMaxSocketPath) {
+    return Bad(absl::StrCat("the socket's path has ", path.size(), " bytes; the limit is ",
+                            kMaxSocketPath));
+  }
+  if (path.find('\0') != std::string::npos) return Bad("the socket's path holds a zero byte");
+  ListenAddress address;
+  address.socket_path = path;
+  return address;
+}
+
+absl::StatusOr<int> ParsePort(const std::string& text, const std::string& whole) {
+  int port = 0;
+  const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), absl::ascii_isdigit);
+  if (!digits) {
+    return Bad(absl::StrCat(whole, ": port \"", text, "\" is not a number from 0 to ", kMaxPort));
+  }
+  if (!absl::SimpleAtoi(text, &port) || port > kMaxPort) {
+    return Bad(absl::StrCat(whole, ": port ", text, " is out of range; the limit is ", kMaxPort));
+  }
+  return port;
+}
+
+absl::Status ErrorOf(int error, const std::string& what) {
+  return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat("listen: ", what));
+}
+
+// What bind says about one of a host's addresses; 0 if nothing.
+int TryToBind(const addrinfo& info) {
+  const int fd = socket(info.ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return errno;
+  // As gRPC does: a port in TIME_WAIT may be taken over, and [::] stands for IPv4, too.
+  const int on = 1, off = 0;
+  setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (info.ai_family == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+  const int error = bind(fd, info.ai_addr, info.ai_addrlen) == 0 ? 0 : errno;
+  close(fd);
+  return error;
+}
+
+absl::Status BindError(int error, const ListenAddress& address) {
+  const std::string text = address.ToString();
+  switch (error) {
+    case EADDRINUSE:
+      return absl::AlreadyExistsError(
+          absl::StrCat("listen: ", text, " is in use: another program listens there"));
+    case EADDRNOTAVAIL:
+      return absl::NotFoundError(
+          absl::StrCat("listen: ", address.host, " is not an address of this machine"));
+    case EACCES:
+    case EPERM:
+      return ErrorOf(error,
+                     absl::StrCat("no permission to listen on port ", address.port,
+                                  address.port < 1024 ? "; those below 1024 are root's" : ""));
+    default:
+      return ErrorOf(error, absl::StrCat("cannot listen on ", text, ": ", std::strerror(error)));
+  }
+}
+
+absl::Status CheckHost(const ListenAddress& address) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* infos = nullptr;
+  const std::string port = absl::StrCat(address.port);
+  if (const int fault = getaddrinfo(address.host.c_str(), port.c_str(), &hints, &infos)) {
+    return absl::NotFoundError(
+        absl::StrCat("listen: cannot resolve host ", address.host, ": ", gai_strerror(fault)));
+  }
+  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(infos, freeaddrinfo);
+  int first_error = 0;
+  bool any = false;
+  for (const addrinfo* info = infos; info != nullptr; info = info->ai_next) {
+    const int error = TryToBind(*info);
+    // Clients of a name that two servers share would reach either.
+    if (error == EADDRINUSE) return BindError(error, address);
+    any = any || error == 0;
+    if (first_error == 0) first_error = error;
+  }
+  return any || first_error == 0 ? absl::OkStatus() : BindError(first_error, address);
+}
+
+bool SomeoneListens(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, kMaxSocketPath);
+  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const bool answers =
+      connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(client);
+  return answers;
+}
+
+absl::Status CheckSocket(const std::string& path) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  const std::string folder = parent.empty() ? std::string(".") : parent;
+  struct stat info {};
+  if (stat(folder.c_str(), &info) != 0) {
+    return ErrorOf(errno,
+                   absl::StrCat("the folder of the socket ", path, ": ", std::strerror(errno)));
+  }
+  if (!S_ISDIR(info.st_mode)) return ErrorOf(ENOTDIR, absl::StrCat(folder, " is not a folder"));
+  if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    return ErrorOf(errno,
+                   absl::StrCat("cannot create a socket in ", folder, ": ", std::strerror(errno)));
+  }
+  if (lstat(path.c_str(), &info) != 0) return absl::OkStatus();
+  if (!S_ISSOCK(info.st_mode)) {
+    return absl::AlreadyExistsError(absl::StrCat("listen: ", path, " exists and is not a socket"));
+  }
+  // One that is left over gRPC removes; it would also take it from a server that listens there.
+  if (!SomeoneListens(path)) return absl::OkStatus();
+  return absl::AlreadyExistsError(absl::StrCat("listen: another server listens on unix:", path));
+}
+
+}  // namespace
+
+std::string ListenAddress::ToString() const {
+  if (!socket_path.empty()) return "unix:" + socket_path;
+  const bool ipv6 = absl::StrContains(host, ':');
+  return absl::StrCat(ipv6 ? "[" : "", host, ipv6 ? "]" : "", ":", port);
+}
+
+bool ListenAddress::IsLocal() const {
+  if (!socket_path.empty() || absl::EqualsIgnoreCase(host, "localhost")) return true;
+  in_addr ipv4;
+  if (inet_pton(AF_INET, host.c_str(), &ipv4) == 1) return ntohl(ipv4.s_addr) >> 24 == 127;
+  in6_addr ipv6;
+  if (inet_pton(AF_INET6, host.c_str(), &ipv6) != 1) return false;
+  return IN6_IS_ADDR_LOOPBACK(&ipv6) || (IN6_IS_ADDR_V4MAPPED(&ipv6) && ipv6.s6_addr[12] == 127);
+}
+
+absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text) {
+  if (text.empty()) return Bad("is missing");
+  if (text.starts_with("unix:")) return ParseSocket(text.substr(5));
+  std::string rest = text;
+  for (const std::string prefix : {"ipv4:", "ipv6:", "dns:///", "dns:"}) {
+    if (!text.starts_with(prefix)) continue;
+    rest = text.substr(prefix.size());
+    break;
+  }
+  const std::size_t colon = rest.rfind(':');
+  if (colon == std::string::npos || absl::StrContains(rest, '/')) {
+    return Bad(absl::StrCat(text, " is neither host:port nor unix:/path"));
+  }
+  ListenAddress address;
+  std::string host = rest.substr(0, colon);
+  const bool bracketed = host.starts_with('[') && host.ends_with(']');
+  if (bracketed) host = host.substr(1, host.size() - 2);
+  if (host.empty()) {
+    return Bad(absl::StrCat(text, " names no host; 0.0.0.0 stands for all of this machine's"));
+  }
+  if (host.find_first_of("[]") != std::string::npos || bracketed != absl::StrContains(host, ':')) {
+    return Bad(absl::StrCat(text, ": an IPv6 address is written [address]:port"));
+  }
+  address.host = host;
+  auto port = ParsePort(rest.substr(colon + 1), text);
+  if (!port.ok()) return port.status();
+  address.port = *port;
+  return address;
+}
+
+absl::Status CheckCanListen(const ListenAddress& address) {
+  return address.socket_path.empty() ? CheckHost(address) : CheckSocket(address.socket_path);
+}
+
+}  // namespace clearway

@@ -1,0 +1,22 @@
+#include "server/memory_use.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace clearway {
+
+MemoryUse CurrentMemoryUse() {
+  MemoryUse use;
+  std::uint64_t pages = 0;
+  // "size resident shared ...", in pages
+  if (std::ifstream statm("/proc/self/statm"); statm >> pages >> pages) {
+    use.resident_bytes = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  }
+  const struct mallinfo2 heap = mallinfo2();
+  use.heap_bytes_in_use = heap.uordblks + heap.hblkhd;  // from arenas, and mapped by themselves
+  return use;
+}
+
+}  // namespace clearway

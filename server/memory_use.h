@@ -1,0 +1,16 @@
+// How much memory this process uses.
+#pragma once
+
+#include <cstdint>
+
+namespace clearway {
+
+// A plain value.
+struct MemoryUse {
+  std::uint64_t resident_bytes = 0;     // in memory; 0 if the kernel does not tell
+  std::uint64_t heap_bytes_in_use = 0;  // handed out by malloc and not given back
+};
+// Any thread may call it.
+MemoryUse CurrentMemoryUse();
+
+}  // namespace clearway

@@ -1,0 +1,166 @@
+#include "server/tls_files.h"
+
+#include <fcntl.h>
+#include <openssl/err.h>
+#include <openssl/pem.h>
+#include <openssl/ssl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+
+namespace clearway {
+namespace {
+
+constexpr std::size_t kMaxBytes = 1 << 20;
+
+template <class T, void (*free)(T*)>
+struct Deleter {
+  void operator()(T* value) const { free(value); }
+};
+using Certificate = std::unique_ptr<X509, Deleter<X509, X509_free>>;
+using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY, EVP_PKEY_free>>;
+using Context = std::unique_ptr<SSL_CTX, Deleter<SSL_CTX, SSL_CTX_free>>;
+struct BioDeleter {
+  void operator()(BIO* bio) const { BIO_free(bio); }
+};
+using Bio = std::unique_ptr<BIO, BioDeleter>;
+
+Bio BytesOf(const std::string& pem) {
+  return Bio(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
+}
+
+absl::Status Bad(const char* field, const std::string& path, const std::string& what) {
+  return absl::InvalidArgumentError(absl::StrCat(field, ": ", path, " ", what));
+}
+
+// What OpenSSL noted last; clears its notes.
+std::string Reason() {
+  const unsigned long error = ERR_peek_last_error();
+  const char* reason = ERR_reason_error_string(error);
+  ERR_clear_error();
+  return reason == nullptr ? "OpenSSL refuses it" : reason;
+}
+
+absl::StatusOr<std::string> ReadPem(const char* field, const std::string& path) {
+  const auto fault = [&](int error) {
+    return absl::Status(absl::ErrnoToStatusCode(error),
+                        absl::StrCat(field, ": cannot read ", path, ": ", std::strerror(error)));
+  };
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return fault(errno);
+  std::string text(kMaxBytes + 1, '\0');
+  struct stat info {};
+  ssize_t size = -1;
+  const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  if (regular) size = pread(fd, text.data(), text.size(), 0);
+  const int error = errno;
+  close(fd);
+  if (!regular) return Bad(field, path, S_ISDIR(info.st_mode) ? "is a folder" : "is not a file");
+  if (size < 0) return fault(error);
+  text.resize(static_cast<std::size_t>(size));
+  if (text.empty()) return Bad(field, path, "is empty");
+  if (text.size() > kMaxBytes) {
+    return Bad(field, path, absl::StrCat("has more than ", kMaxBytes, " bytes"));
+  }
+  return text;
+}
+
+// No passphrase: there is nobody to ask.
+int NoPassphrase(char*, int, int, void* asked) {
+  *static_cast<bool*>(asked) = true;
+  return -1;
+}
+
+absl::StatusOr<Key> ReadKey(const std::string& pem, const std::string& path) {
+  bool encrypted = false;
+  Key key(PEM_read_bio_PrivateKey(BytesOf(pem).get(), nullptr, NoPassphrase, &encrypted));
+  const std::string reason = Reason();
+  if (key != nullptr) return key;
+  if (encrypted)
+    return Bad("tls_key", path, "is encrypted; the server needs a key without passphrase");
+  if (!absl::StrContains(pem, "PRIVATE KEY-----")) {
+    return Bad("tls_key", path,
+               absl::StrContains(pem, "-----BEGIN CERTIFICATE-----")
+                   ? "holds a certificate and no private key; are tls_cert and tls_key swapped?"
+                   : "holds no private key in PEM");
+  }
+  return Bad("tls_key", path, absl::StrCat("holds a private key that cannot be read: ", reason));
+}
+
+// The whole chain; the server's own certificate comes first.
+absl::StatusOr<std::vector<Certificate>> ReadChain(const std::string& pem,
+                                                   const std::string& path) {
+  std::vector<Certificate> chain;
+  const Bio bio = BytesOf(pem);
+  while (X509* certificate = PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr)) {
+    chain.emplace_back(certificate);
+  }
+  const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
+  const std::string reason = Reason();
+  if (!at_end) {
+    return Bad("tls_cert", path,
+               absl::StrCat("certificate ", chain.size() + 1, " cannot be read: ", reason));
+  }
+  if (!chain.empty()) return chain;
+  return Bad("tls_cert", path,
+             absl::StrContains(pem, "PRIVATE KEY-----")
+                 ? "holds a private key and no certificate; are tls_cert and tls_key swapped?"
+                 : "holds no certificate in PEM");
+}
+
+// What only TLS objects to, such as keys that are too short.
+absl::Status CheckForTls(X509* certificate, EVP_PKEY* key, const std::string& cert_path,
+                         const std::string& key_path) {
+  const Context context(SSL_CTX_new(TLS_server_method()));
+  if (context == nullptr) return absl::InternalError("tls: OpenSSL does not start: " + Reason());
+  if (SSL_CTX_use_certificate(context.get(), certificate) != 1) {
+    return Bad("tls_cert", cert_path, "cannot be used for TLS: " + Reason());
+  }
+  if (SSL_CTX_use_PrivateKey(context.get(), key) != 1) {
+    return Bad("tls_key", key_path, "cannot be used for TLS: " + Reason());
+  }
+  return absl::OkStatus();
+}
+
+// A machine without a battery may not know the date yet, so this is no error.
+std::string ValidityWarning(const X509* certificate, const std::string& path) {
+  if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0) {
+    return absl::StrCat("tls_cert: ", path, " has expired; clients will refuse it");
+  }
+  if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
+    return absl::StrCat("tls_cert: ", path, " is not valid yet; clients will refuse it");
+  }
+  return "";
+}
+
+}  // namespace
+
+absl::StatusOr<TlsFiles> ReadTlsFiles(const std::string& cert_path, const std::string& key_path) {
+  ERR_clear_error();
+  absl::StatusOr<std::string> cert = ReadPem("tls_cert", cert_path);
+  if (!cert.ok()) return cert.status();
+  absl::StatusOr<std::string> key = ReadPem("tls_key", key_path);
+  if (!key.ok()) return key.status();
+  const absl::StatusOr<std::vector<Certificate>> chain = ReadChain(*cert, cert_path);
+  if (!chain.ok()) return chain.status();
+  const absl::StatusOr<Key> private_key = ReadKey(*key, key_path);
+  if (!private_key.ok()) return private_key.status();
+  X509* const own = chain->front().get();
+  if (X509_check_private_key(own, private_key->get()) != 1) {
+    ERR_clear_error();
+    return Bad("tls_key", key_path,
+               absl::StrCat("does not belong to tls_cert ", cert_path,
+                            " (its first certificate must be the server's own)"));
+  }
+  if (auto s = CheckForTls(own, private_key->get(), cert_path, key_path); !s.ok()) return s;
+  return TlsFiles{*std::move(cert), *std::move(key), ValidityWarning(own, cert_path)};
+}
+
+}  // namespace clearway

@@ -1,0 +1,42 @@
+// When to open a broken stream again.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <random>
+
+#include "clearway/client/stream_state.h"
+
+namespace clearway {
+
+// Keeps the state of one stream and its pauses. The stream's thread calls Connected and Lost; any
+// thread may call state.
+class Reconnector {
+ public:
+  explicit Reconnector(ReconnectOptions options);
+
+  // The server has answered. Repeated calls change nothing.
+  void Connected();
+  // The stream is broken, or opening it failed. Returns how long to wait before the next attempt;
+  // nothing when it is time to give up.
+  std::optional<Duration> Lost(const absl::Status& error);
+
+  StreamState state() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Duration NextPause();
+  void Report(const StreamState& state) const;
+
+  const ReconnectOptions options_;
+  std::minstd_rand random_{std::random_device()()};
+  Duration pause_;                     // before the next attempt
+  Clock::time_point connected_since_;  // while connected
+  std::optional<Clock::time_point> lost_since_;
+
+  mutable std::mutex mutex_;
+  StreamState state_;
+};
+
+}  // namespace clearway

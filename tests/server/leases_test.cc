@@ -1,0 +1,59 @@
+#include "server/leases.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+namespace clearway {
+namespace {
+
+using std::chrono::seconds;
+
+class HeldScenes : public testing::Test {
+ protected:
+  // Frees itself slowly: before it is gone, another thread must get an answer from the leases.
+  ScenePtr SceneThatNeedsTheLeases() {
+    return {new SceneSnapshot, [this](const SceneSnapshot* scene) {
+              auto other = std::async(std::launch::async, [this] { return dut_.size(); });
+              freed_unlocked_ = other.wait_for(seconds(20)) == std::future_status::ready;
+              delete scene;
+            }};
+  }
+
+  Leases::Clock::time_point now_ = Leases::Clock::now();
+  bool freed_unlocked_ = false;
+  Leases dut_{{.max_leases = 2, .max_ttl = seconds(60), .now = [this] { return now_; }}};
+};
+
+TEST_F(HeldScenes, Empty) {
+  EXPECT_EQ(dut_.size(), 0u);
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Find("none").status()));
+}
+
+TEST_F(HeldScenes, EndsWithItsTimeToLive) {
+  const auto lease = dut_.Acquire(std::make_shared<SceneSnapshot>(), seconds(5));
+  ASSERT_TRUE(lease.ok());
+  now_ += seconds(4);
+  EXPECT_TRUE(dut_.Find(lease->id).ok());
+  EXPECT_TRUE(dut_.Renew(lease->id, seconds(5)).ok());
+  now_ += seconds(4);
+  EXPECT_TRUE(dut_.Find(lease->id).ok());
+  now_ += seconds(2);
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Find(lease->id).status()));
+  EXPECT_EQ(dut_.size(), 0u);
+}
+
+TEST_F(HeldScenes, NobodyWaitsWhileAScenesMemoryIsFreed) {
+  const auto lease = dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5));
+  ASSERT_TRUE(lease.ok());
+  dut_.Release(lease->id);
+  EXPECT_TRUE(freed_unlocked_);
+  freed_unlocked_ = false;
+  ASSERT_TRUE(dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5)).ok());
+  now_ += seconds(6);
+  EXPECT_EQ(dut_.size(), 0u);
+  EXPECT_TRUE(freed_unlocked_);
+}
+
+}  // namespace
+}  // namespace clearway
