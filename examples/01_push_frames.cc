@@ -25,7 +25,8 @@ absl::Status Run(const std::string& address, std::size_t frames) {
     // object.
     const Frame frame = simulation->MakeFrame(k);
     // Waits until the frame is in the scene. Sending it again would be harmless: (sensor_id,
-    // sequence) names it, and the server would repeat its first answer.
+    // sensor_run, sequence) names it, and the server would repeat its first answer. The sender
+    // chooses a random sensor_run, so that a program that restarts may count from 0 again.
     const absl::StatusOr<PushAck> ack = sender.Push(frame);
     if (!ack.ok()) return ack.status();
     std::printf("frame %3zu: %6zu points, %zu motions -> version %llu\n", k,

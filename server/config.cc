@@ -105,46 +105,6 @@ absl::Status Require(bool condition, const char* key, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(key, ": ", what));
 }
 
-absl::Status ValidateLimits(const ServerLimits& limits) {
-  const ServerConfig defaults;
-  for (const Setting& setting : Settings()) {
-    if (!absl::StartsWith(setting.key, "limits.")) continue;
-    ServerConfig config;
-    config.limits = limits;
-    const double value = std::stod(setting.get(config));
-    if (auto status = Require(value > 0, setting.key.c_str(), "must be above 0"); !status.ok()) {
-      return status;
-    }
-  }
-  constexpr std::uint64_t kMaxMessage = std::uint64_t{1} << 30;  // gRPC counts bytes in an int
-  if (auto status =
-          Require(limits.max_message_bytes <= kMaxMessage, "limits.max_message_bytes",
-                  absl::StrCat("is ", limits.max_message_bytes, "; the limit is ", kMaxMessage));
-      !status.ok()) {
-    return status;
-  }
-  return Require(limits.max_lease_ttl_s <= 1e6 && limits.max_version_wait_s <= 1e6 &&
-                     limits.max_planning_s <= 1e6,
-                 "limits.max_lease_ttl_s", "times must be at most 1000000 s");
-}
-
-absl::Status InRange(const char* key, Duration value, double min_s, double max_s) {
-  const double value_s = ToSeconds(value);
-  return Require(
-      value_s >= min_s && value_s <= max_s, key,
-      absl::StrCat("is ", value_s, " s; it must lie between ", min_s, " and ", max_s, " s"));
-}
-
-absl::Status ValidateKeepalive(const KeepaliveConfig& keepalive) {
-  for (const absl::Status& status :
-       {InRange("keepalive.time_s", keepalive.time, 1, 3600),
-        InRange("keepalive.timeout_s", keepalive.timeout, 1, 600),
-        InRange("keepalive.min_client_ping_s", keepalive.min_client_ping, 0.1, 3600)}) {
-    if (!status.ok()) return status;
-  }
-  return absl::OkStatus();
-}
-
 }  // namespace
 
 absl::Status Validate(const ServerConfig& config) {
@@ -161,15 +121,11 @@ absl::Status Validate(const ServerConfig& config) {
                              " can be reached from elsewhere, which needs tls_cert "
                              "and tls_key")),
         Require(kLevels->count(config.log_level) != 0, "log_level",
-                absl::StrCat("\"", config.log_level, "\" is not a level")),
-        Require(config.threads >= 0 && config.threads <= 256, "threads",
-                absl::StrCat("is ", config.threads, "; it must lie between 0 and 256")),
-        Require(config.writer_niceness >= 0 && config.writer_niceness <= 19, "writer_niceness",
-                absl::StrCat("is ", config.writer_niceness, "; it must lie between 0 and 19")),
-        Require(config.kept_versions <= 10'000, "kept_versions",
-                absl::StrCat("is ", config.kept_versions, "; the limit is 10000")),
-        ValidateKeepalive(config.keepalive), ValidateLimits(config.limits)}) {
+                absl::StrCat("\"", config.log_level, "\" is not a level"))}) {
     if (!status.ok()) return status;
+  }
+  for (const Setting& setting : Settings()) {
+    if (absl::Status status = setting.check(config); !status.ok()) return status;
   }
   const absl::Status scene = Validate(config.scene);
   if (scene.ok()) return scene;

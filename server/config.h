@@ -41,8 +41,11 @@ absl::Status Validate(const ServerConfig& config);
 struct Setting {
   std::string key;
   std::string help;
+  // INVALID_ARGUMENT naming the key, the value and what it may be.
   std::function<absl::Status(ServerConfig&, const std::string&)> set;
   std::function<std::string(const ServerConfig&)> get;  // as TOML
+  // Of what the configuration holds, as `set`.
+  std::function<absl::Status(const ServerConfig&)> check;
 
   std::string FlagName() const;
   std::string EnvironmentName() const;

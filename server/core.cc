@@ -19,8 +19,7 @@ std::string NewInstance() {
 Ingestor::Options IngestorOptions(const ServerConfig& config) {
   Ingestor::Options options;
   options.scene = config.scene;
-  options.frames = {config.limits.max_points_per_frame, config.limits.max_objects,
-                    config.limits.max_coordinate_m, config.limits.max_blocks};
+  options.frames = FrameLimitsOf(config.limits);
   options.max_queued = config.limits.max_queued_frames;
   options.max_remembered = config.limits.max_remembered_answers;
   const int machine = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -37,6 +36,15 @@ Leases::Options LeaseOptions(const ServerConfig& config) {
 }
 
 }  // namespace
+
+FrameLimits FrameLimitsOf(const ServerLimits& limits) {
+  return {.max_points = limits.max_points_per_frame,
+          .max_objects = limits.max_objects,
+          .max_coordinate_m = limits.max_coordinate_m,
+          .max_blocks = limits.max_blocks,
+          .max_stamp_jump = FromSeconds(limits.max_stamp_jump_s),
+          .late_window = FromSeconds(limits.late_window_s)};
+}
 
 ServerCore::ServerCore(const ServerConfig& server_config)
     : config(server_config),

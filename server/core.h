@@ -15,6 +15,8 @@
 
 namespace clearway {
 
+FrameLimits FrameLimitsOf(const ServerLimits& limits);
+
 // The server without its transport. Any thread may use it; every member guards itself.
 struct ServerCore {
   explicit ServerCore(const ServerConfig& config);

@@ -29,37 +29,25 @@ Ingestor::Ingestor(const Options& options, Versions& versions)
       versions_(versions),
       pool_(options.threads),
       builder_(options.scene, options.frames, pool_),
-      alarms_(options.threads) {
+      alarms_(options.threads),
+      remembered_(options.max_remembered) {
   versions_.Publish(builder_.Publish());
   writer_ = std::thread([this] { Run(); });
 }
 
 Ingestor::~Ingestor() { Drain(); }
 
-std::unique_ptr<Ingestor::Job> Ingestor::JobOf(Frame frame) {
+std::unique_ptr<Ingestor::Job> Ingestor::JobOf(PushedFrame pushed) {
   auto job = std::make_unique<Job>();
-  job->is_frame = true;
-  job->change = [shared = std::make_shared<const Frame>(std::move(frame)),
+  job->frame = pushed.name();
+  job->change = [shared = std::make_shared<const PushedFrame>(std::move(pushed)),
                  ack = &job->ack](SceneBuilder& builder) {
-    absl::StatusOr<FrameReport> report = builder.Apply(*shared);
+    absl::StatusOr<FrameReport> report =
+        builder.Apply(shared->frame, {.allow_stamp_jump = shared->allow_stamp_jump});
     if (report.ok()) ack->report = *report;
     return report.status();
   };
   return job;
-}
-
-std::optional<Ingestor::Ticket> Ingestor::Remembered(const FrameName& name) const {
-  const auto found = answers_.find(name);
-  if (found == answers_.end()) return std::nullopt;
-  return Ticket{found->second.answer, true};
-}
-
-void Ingestor::Remember(const FrameName& name, const Ticket& ticket) {
-  answers_[name] = ticket;
-  answer_order_.push_back(name);
-  if (answer_order_.size() <= options_.max_remembered) return;
-  answers_.erase(answer_order_.front());
-  answer_order_.pop_front();
 }
 
 absl::StatusOr<Ingestor::Ticket> Ingestor::Enqueue(std::unique_lock<std::mutex>&,
@@ -73,32 +61,43 @@ absl::StatusOr<Ingestor::Ticket> Ingestor::Enqueue(std::unique_lock<std::mutex>&
 }
 
 absl::StatusOr<Ingestor::Ticket> Ingestor::PushLocked(std::unique_lock<std::mutex>& lock,
-                                                      Frame frame) {
-  const FrameName name(frame.sensor_id, frame.sequence);
-  if (auto remembered = Remembered(name)) return *remembered;
-  absl::StatusOr<Ticket> ticket = Enqueue(lock, JobOf(std::move(frame)));
-  if (ticket.ok()) Remember(name, *ticket);
+                                                      PushedFrame pushed) {
+  const FrameName name = pushed.name();
+  RememberedFrames::Entry entry{pushed.content(), pushed.allow_stamp_jump, {}};
+  const auto repeated = remembered_.Find(name, entry.content, entry.allow_stamp_jump);
+  if (!repeated.ok()) {
+    ++counts_.frames_refused;
+    return repeated.status();
+  }
+  if (*repeated != nullptr) return Ticket{(*repeated)->answer, true};
+  absl::StatusOr<Ticket> ticket = Enqueue(lock, JobOf(std::move(pushed)));
+  if (!ticket.ok()) return ticket;
+  entry.answer = ticket->answer;
+  remembered_.Add(name, std::move(entry));
   return ticket;
 }
 
-std::optional<Ingestor::Ticket> Ingestor::Find(const std::string& sensor_id,
-                                               std::uint64_t sequence) const {
+std::optional<Ingestor::Ticket> Ingestor::FindRepeated(const FrameName& name,
+                                                       const FrameContent& content,
+                                                       bool allow_stamp_jump) const {
   std::lock_guard lock(mutex_);
-  return Remembered({sensor_id, sequence});
+  const auto repeated = remembered_.Find(name, content, allow_stamp_jump);
+  if (!repeated.ok() || *repeated == nullptr) return std::nullopt;
+  return Ticket{(*repeated)->answer, true};
 }
 
-absl::StatusOr<Ingestor::Ticket> Ingestor::Push(Frame frame) {
+absl::StatusOr<Ingestor::Ticket> Ingestor::Push(PushedFrame pushed) {
   std::unique_lock lock(mutex_);
-  return PushLocked(lock, std::move(frame));
+  return PushLocked(lock, std::move(pushed));
 }
 
-absl::StatusOr<Ingestor::Ticket> Ingestor::PushWhenRoom(Frame frame, const Gone& gone) {
+absl::StatusOr<Ingestor::Ticket> Ingestor::PushWhenRoom(PushedFrame pushed, const Gone& gone) {
   std::unique_lock lock(mutex_);
   while (!draining_ && queue_.size() >= options_.max_queued) {
     if (gone()) return absl::CancelledError("the client has gone");
     changed_.wait_for(lock, kLook);
   }
-  return PushLocked(lock, std::move(frame));
+  return PushLocked(lock, std::move(pushed));
 }
 
 absl::StatusOr<Ingestor::Ticket> Ingestor::Apply(Change change, bool forget_answers) {
@@ -108,8 +107,7 @@ absl::StatusOr<Ingestor::Ticket> Ingestor::Apply(Change change, bool forget_answ
   absl::StatusOr<Ticket> ticket = Enqueue(lock, std::move(job));
   if (!ticket.ok() || !forget_answers) return ticket;
   // Now, not when the change is applied: frames that come in between belong to what follows it.
-  answers_.clear();
-  answer_order_.clear();
+  remembered_.Clear();
   return ticket;
 }
 
@@ -165,13 +163,24 @@ void Ingestor::Run() {
     Answer answer = Do(*job);
     for (auto& alarm : alarms_) alarm->Stop();
     lock.lock();
-    if (job->is_frame) {
-      ++(answer.ok() ? counts_.frames_applied : counts_.frames_refused);
-      counts_.points_used += answer.ok() ? answer->report.points_used : 0;
-      counts_.points_not_finite += answer.ok() ? answer->report.points_not_finite : 0;
-    }
+    if (job->frame) Count(*job->frame, answer);
     job->answer.set_value(std::move(answer));
   }
+}
+
+void Ingestor::Count(const FrameName& name, const Answer& answer) {
+  if (!answer.ok()) {
+    ++counts_.frames_refused;
+    // What has a reason is the server's own failure: the same frame may succeed when it comes
+    // again.
+    if (!ReasonOf(answer.status()).empty()) remembered_.Forget(name);
+    return;
+  }
+  const FrameReport& report = answer->report;
+  ++counts_.frames_applied;
+  counts_.frames_late += report.late_by > Duration::zero();
+  counts_.points_used += report.points_used;
+  counts_.points_not_finite += report.points_not_finite;
 }
 
 void Ingestor::CountRefused() {

@@ -7,18 +7,16 @@
 #include <deque>
 #include <functional>
 #include <future>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/wire/push_ack.h"
+#include "server/remembered_frames.h"
 #include "server/thread_priority.h"
 #include "server/versions.h"
 
@@ -27,14 +25,26 @@ namespace clearway {
 // What the ingestor has done so far.
 struct IngestCounts {
   std::uint64_t frames_applied = 0, frames_refused = 0;
+  std::uint64_t frames_late = 0;  // of those applied
   std::uint64_t points_used = 0, points_not_finite = 0;
   std::uint64_t queued = 0;
 };
 
+// A frame as it was pushed.
+struct PushedFrame {
+  Frame frame;
+  std::uint64_t content_hash = 0;  // of all that was sent: equal for repeats alone
+  bool allow_stamp_jump = false;
+
+  FrameName name() const { return {frame.sensor_id, frame.sensor_run, frame.sequence}; }
+  FrameContent content() const { return {frame.stamp, content_hash}; }
+};
+
 // Applies frames and other changes in the order they were accepted, and publishes a version after
-// each. Any thread may call any method. A frame is named by (sensor_id, sequence): a repeat gets
-// the first one's answer, refusals by the scene included, as long as the answer is remembered.
-// Frames that were never accepted leave no trace.
+// each. Any thread may call any method. A frame is named by (sensor_id, sensor_run, sequence): an
+// identical repeat gets the first one's answer, refusals by the scene included, as long as the name
+// is remembered; another frame of that name is refused. Frames that were never accepted leave no
+// trace, nor do those that the server failed to apply.
 class Ingestor {
  public:
   using Answer = absl::StatusOr<PushAck>;
@@ -62,12 +72,15 @@ class Ingestor {
   Ingestor(const Options& options, Versions& versions);
   ~Ingestor();  // drains
 
-  // The frame of this name that was accepted before, if it is remembered.
-  std::optional<Ticket> Find(const std::string& sensor_id, std::uint64_t sequence) const;
-  // RESOURCE_EXHAUSTED if the queue is full, UNAVAILABLE while draining.
-  absl::StatusOr<Ticket> Push(Frame frame);
+  // The answer to the same frame, accepted before and remembered. None if there is none, and if
+  // another frame has its name: Push says so.
+  std::optional<Ticket> FindRepeated(const FrameName& name, const FrameContent& content,
+                                     bool allow_stamp_jump) const;
+  // RESOURCE_EXHAUSTED if the queue is full, UNAVAILABLE while draining, ALREADY_EXISTS for the
+  // name of another frame.
+  absl::StatusOr<Ticket> Push(PushedFrame pushed);
   // As Push, but waits for room in the queue; CANCELLED once `gone`.
-  absl::StatusOr<Ticket> PushWhenRoom(Frame frame, const Gone& gone);
+  absl::StatusOr<Ticket> PushWhenRoom(PushedFrame pushed, const Gone& gone);
   // Queues a change beside the frames; `forget_answers` for one that begins the scene
   // anew: frames pushed before it may then be pushed again.
   absl::StatusOr<Ticket> Apply(Change change, bool forget_answers = false);
@@ -82,19 +95,17 @@ class Ingestor {
   IngestCounts counts() const;
 
  private:
-  using FrameName = std::pair<std::string, std::uint64_t>;
   struct Job {
     Change change;
-    bool is_frame = false;
-    PushAck ack;  // filled by `change`, then by the publication
+    std::optional<FrameName> frame;  // of a frame
+    PushAck ack;                     // filled by `change`, then by the publication
     std::promise<Answer> answer;
   };
 
   absl::StatusOr<Ticket> Enqueue(std::unique_lock<std::mutex>& lock, std::unique_ptr<Job> job);
-  std::unique_ptr<Job> JobOf(Frame frame);
-  std::optional<Ticket> Remembered(const FrameName& name) const;
-  void Remember(const FrameName& name, const Ticket& ticket);
-  absl::StatusOr<Ticket> PushLocked(std::unique_lock<std::mutex>& lock, Frame frame);
+  std::unique_ptr<Job> JobOf(PushedFrame pushed);
+  absl::StatusOr<Ticket> PushLocked(std::unique_lock<std::mutex>& lock, PushedFrame pushed);
+  void Count(const FrameName& name, const Answer& answer);
   void MakeThreadsGiveWay();
   void Run();
   Answer Do(Job& job);
@@ -108,8 +119,7 @@ class Ingestor {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::unique_ptr<Job>> queue_;
-  std::map<FrameName, Ticket> answers_;
-  std::deque<FrameName> answer_order_;  // oldest first
+  RememberedFrames remembered_;
   IngestCounts counts_;
   bool draining_ = false;
   std::thread writer_;

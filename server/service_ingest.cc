@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/content_hash.h"
 #include "server/handler.h"
 #include "server/services.h"
 #include "wire/frame_wire.h"
@@ -17,14 +18,7 @@ struct Accepted {
   AckLevel wait_for = AckLevel::kApplied;
 };
 
-absl::StatusOr<Frame> FrameOf(const ServerCore& core, const v1::Frame& proto) {
-  const ServerLimits& limits = core.config.limits;
-  return ReadFrame("frame", proto,
-                   {limits.max_points_per_frame, limits.max_objects, limits.max_coordinate_m,
-                    limits.max_blocks});
-}
-
-// Of PushFrame and PushFrames alike. push(Frame) puts a frame into the queue.
+// Of PushFrame and PushFrames alike. push(PushedFrame) puts a frame into the queue.
 template <class Request, class Push>
 absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&& push) {
   if (core.draining) {
@@ -40,16 +34,20 @@ absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&&
   }
   if (!request.has_frame()) return FieldError("frame", "is missing");
   const v1::Frame& proto = request.frame();
-  if (auto known = core.ingestor.Find(proto.sensor_id(), proto.sequence());
-      known && proto.has_sequence()) {
-    return Accepted{*std::move(known), *level};
+  const std::uint64_t hash = ContentHash(proto);
+  // Before it is converted, which costs more. What lacks a field was never accepted.
+  if (auto repeated = core.ingestor.FindRepeated(
+          {proto.sensor_id(), proto.sensor_run(), proto.sequence()},
+          {TimeFromNanoseconds(proto.stamp_ns()), hash}, request.allow_stamp_jump())) {
+    return Accepted{*std::move(repeated), *level};
   }
-  absl::StatusOr<Frame> frame = FrameOf(core, proto);
+  absl::StatusOr<Frame> frame = ReadFrame("frame", proto, FrameLimitsOf(core.config.limits));
   if (!frame.ok()) {
     core.ingestor.CountRefused();
     return frame.status();
   }
-  absl::StatusOr<Ingestor::Ticket> ticket = push(*std::move(frame));
+  absl::StatusOr<Ingestor::Ticket> ticket =
+      push(PushedFrame{*std::move(frame), hash, request.allow_stamp_jump()});
   if (!ticket.ok()) return ticket.status();
   return Accepted{*std::move(ticket), *level};
 }
@@ -85,7 +83,8 @@ class AnswerWriter {
   void Owe(const v1::Frame& frame, absl::StatusOr<Accepted> accepted) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return owed_.size() < window_; });
-    owed_.push_back({frame.sensor_id(), frame.sequence(), std::move(accepted)});
+    owed_.push_back(
+        {{frame.sensor_id(), frame.sensor_run(), frame.sequence()}, std::move(accepted)});
     changed_.notify_all();
   }
 
@@ -101,8 +100,7 @@ class AnswerWriter {
 
  private:
   struct Owed {
-    std::string sensor_id;
-    std::uint64_t sequence = 0;
+    FrameName name;
     absl::StatusOr<Accepted> accepted;
   };
 
@@ -122,8 +120,9 @@ class AnswerWriter {
 
   v1::PushFramesResponse ResponseTo(const Owed& owed) const {
     v1::PushFramesResponse response;
-    response.set_sensor_id(owed.sensor_id);
-    response.set_sequence(owed.sequence);
+    response.set_sensor_id(owed.name.sensor_id);
+    response.set_sensor_run(owed.name.sensor_run);
+    response.set_sequence(owed.name.sequence);
     const absl::StatusOr<PushAck> answer =
         owed.accepted.ok() ? AnswerOf(core_, *owed.accepted, gone_) : owed.accepted.status();
     if (answer.ok()) {
@@ -151,8 +150,9 @@ grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
                                        const v1::PushFrameRequest* request,
                                        v1::PushFrameResponse* response) {
   return Handle(core_, "PushFrame", *request, [&]() -> absl::Status {
-    absl::StatusOr<Accepted> accepted =
-        Accept(core_, *request, [&](Frame frame) { return core_.ingestor.Push(std::move(frame)); });
+    absl::StatusOr<Accepted> accepted = Accept(core_, *request, [&](PushedFrame pushed) {
+      return core_.ingestor.Push(std::move(pushed));
+    });
     if (!accepted.ok()) return accepted.status();
     absl::StatusOr<PushAck> ack = AnswerOf(core_, *accepted, GoneOf(context));
     if (!ack.ok()) return ack.status();
@@ -179,8 +179,8 @@ grpc::Status IngestHandlers::PushFrames(
     v1::PushFramesRequest request;
     Received received;
     while ((received = ReadNext(*stream, request)) == Received::kMessage) {
-      answers.Owe(request.frame(), Accept(core_, request, [&](Frame frame) {
-                    return core_.ingestor.PushWhenRoom(std::move(frame), gone);
+      answers.Owe(request.frame(), Accept(core_, request, [&](PushedFrame pushed) {
+                    return core_.ingestor.PushWhenRoom(std::move(pushed), gone);
                   }));
     }
     answers.Finish();  // before the call ends with a status

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -60,6 +61,14 @@ absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>&
   return bytes;
 }
 
+// As many as fill all blocks of the scene.
+std::int64_t MaxVoxelsOf(const ServerLimits& limits) {
+  constexpr std::int64_t kVoxelsPerBlock = kBlockSize * kBlockSize * kBlockSize;
+  const std::int64_t most = OctomapLimits().max_voxels / kVoxelsPerBlock;
+  return kVoxelsPerBlock *
+         std::min<std::int64_t>(most, static_cast<std::int64_t>(limits.max_blocks));
+}
+
 }  // namespace
 
 grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
@@ -97,8 +106,14 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
     }
     OctomapLimits limits;
     limits.max_bytes = max_bytes;
+    limits.max_voxels = MaxVoxelsOf(core_.config.limits);
     absl::StatusOr<OctomapFile> file =
         ParseOctomap("data", *bytes, core_.config.scene.Model(), limits);
+    if (absl::IsResourceExhausted(file.status())) {
+      return absl::ResourceExhaustedError(
+          absl::StrCat(std::string(file.status().message()), " (limits.max_prior_bytes is ",
+                       max_bytes, ", limits.max_blocks ", core_.config.limits.max_blocks, ")"));
+    }
     if (!file.ok()) return file.status();
     const OctomapFormat wanted =
         format == v1::MAP_FORMAT_BT ? OctomapFormat::kBinary : OctomapFormat::kFull;

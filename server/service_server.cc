@@ -30,6 +30,7 @@ grpc::Status InfoHandlers::GetStatus(grpc::ServerContext*, const v1::GetStatusRe
     status.draining = core_.draining;
     status.frames_applied = counts.frames_applied;
     status.frames_refused = counts.frames_refused;
+    status.frames_late = counts.frames_late;
     status.points_used = counts.points_used;
     status.points_not_finite = counts.points_not_finite;
     status.queued_frames = counts.queued;

@@ -1,5 +1,7 @@
 #include "cli/ack_tally.h"
 
+#include <algorithm>
+
 namespace clearway::cli {
 
 void AckTally::Sent(std::uint64_t points) {
@@ -18,6 +20,9 @@ FrameSender::OnAck AckTally::OnAck() {
     }
     if (answer.ok()) {
       counts_.repeated += answer->repeated_answer ? 1 : 0;
+      const Duration late_by = answer->report.late_by;
+      counts_.late += late_by > Duration::zero() ? 1 : 0;
+      counts_.max_late_by = std::max(counts_.max_late_by, late_by);
       if (answer->version >= counts_.last.version) counts_.last = *answer;
       return;
     }

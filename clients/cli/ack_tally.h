@@ -18,6 +18,8 @@ class AckTally {
     std::size_t answered = 0;  // with whatever answer
     std::size_t refused = 0;
     std::size_t repeated = 0;    // remembered answers to an earlier push
+    std::size_t late = 0;        // older than a frame of another sensor
+    Duration max_late_by{};      // of those
     std::uint64_t points = 0;    // of the answered frames
     PushAck last;                // of the newest version that was named
     absl::Status first_refusal;  // OK if there is none

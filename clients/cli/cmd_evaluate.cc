@@ -116,6 +116,8 @@ absl::Status CarryTruth(const SceneParams& params, const Flags& flags, const Ter
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t, const Frame& frame, const Frame&, const FrameReport& report,
                        SceneBuilder&) {
+    if (report.late_by > Duration::zero())
+      return;  // placed by what is known of the frames about it
     corrections.Add(frame.stamp, *report.T_W_S * Inverse(frame.T_W_S));
   };
   terminal.err

@@ -38,6 +38,8 @@ struct Flags {
   std::string wait = "applied";
   double reconnect_for_s = 60;
   bool keep_going = false;
+  bool allow_stamp_jump = false;
+  std::uint64_t sensor_run = 0;
   bool quiet = false;
   bool json = false;
 };
@@ -70,8 +72,9 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
   Pace pace(flags.rate);
   FrameTeller teller(flags.errors);
   for (std::size_t i = first; i < end; ++i) {
-    const auto frame = source.read(i);
+    auto frame = source.read(i);
     if (!frame.ok()) return frame.status();
+    frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
     pace.WaitFor(frame->stamp);
     tally.Sent(frame->points_S.size());
     if (const absl::Status status = sender.Send(teller.Tell(*frame)); !status.ok()) return status;
@@ -103,6 +106,7 @@ Json AsJson(const AckTally::Counts& counts, std::uint64_t reconnects, double sec
                {"refused", counts.refused},
                {"repeated", counts.repeated},
                {"reconnects", reconnects},
+               {"late", counts.late},
                {"points", counts.points},
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
@@ -120,6 +124,12 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
         << Seconds(counts.last.stamp);
   }
   out << "\n";
+  if (counts.late > 0) {
+    out << Plural(counts.late, "frame")
+        << " of a sensor arrived after newer ones of another, by up to "
+        << ToSeconds(counts.max_late_by) << " s, and " << (counts.late == 1 ? "was" : "were")
+        << " applied\n";
+  }
   if (counts.repeated > 0) {
     out << Plural(counts.repeated, "frame")
         << " had been sent before and changed nothing ('clearway reset' starts over)\n";
@@ -178,7 +188,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     if (!flags.quiet) return progress.Note(line);
     terminal.err << line << std::endl;  // a lost connection is no progress
   };
-  FrameSender sender(*connection);  // its stream uses what stands above
+  // Its stream uses what stands above.
+  FrameSender sender(*connection,
+                     {.sensor_run = flags.sensor_run, .allow_stamp_jump = flags.allow_stamp_jump});
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
   absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, note));
   if (!status.ok()) return status;
@@ -220,8 +232,11 @@ void AddReplay(Cli& cli) {
           "--rate", flags->rate,
           "Times as fast as recorded; 1 is real time\n(default: as fast as the server goes)")
       ->check(Between(1e-3, 1e6));
-  command->add_option("--from", flags->from, "First frame, counted from 0")->capture_default_str();
-  command->add_option("--to", flags->to, "Last frame (default: the source's last)");
+  command->add_option("--from", flags->from, "First frame, counted from 0")
+      ->check(NotNegative())
+      ->capture_default_str();
+  command->add_option("--to", flags->to, "Last frame (default: the source's last)")
+      ->check(NotNegative());
   command->add_option("--wait", flags->wait, "When a frame counts as done: accepted or applied")
       ->check(CLI::IsMember({"accepted", "applied"}).description(""))
       ->capture_default_str();
@@ -234,6 +249,13 @@ void AddReplay(Cli& cli) {
       ->capture_default_str();
   command->add_flag("--keep-going", flags->keep_going,
                     "Go on after a refused frame (the exit code is 1 still)");
+  command
+      ->add_option("--sensor-run", flags->sensor_run,
+                   "Part of each frame's name. With the same number, frames\nthat the server has "
+                   "already are not applied twice\n(default: random for each replay)")
+      ->check(NotNegative());
+  command->add_flag("--allow-stamp-jump", flags->allow_stamp_jump,
+                    "Send stamps further ahead than the server's\nmax_stamp_jump_s, too");
   command->add_flag("-q,--quiet", flags->quiet, "No progress on stderr");
   command->add_flag("--json", flags->json, "Print a summary as JSON");
   AddErrorFlags(command, &flags->errors);

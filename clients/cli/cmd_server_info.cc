@@ -46,7 +46,9 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_calls", l.max_calls},
           {"max_plans", l.max_plans},
           {"max_planning_s", l.max_planning_s},
-          {"max_watch_streams", l.max_watch_streams}};
+          {"max_watch_streams", l.max_watch_streams},
+          {"max_stamp_jump_s", l.max_stamp_jump_s},
+          {"late_window_s", l.late_window_s}};
 }
 
 Json ParamsJson(const SceneParams& p) {

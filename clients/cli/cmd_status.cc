@@ -27,6 +27,7 @@ Json AsJson(const ServerStatus& s) {
                    {"draining", s.draining},
                    {"frames_applied", s.frames_applied},
                    {"frames_refused", s.frames_refused},
+                   {"frames_late", s.frames_late},
                    {"queued_frames", s.queued_frames},
                    {"points_used", s.points_used},
                    {"points_not_finite", s.points_not_finite},
@@ -49,8 +50,9 @@ void PrintText(std::ostream& out, const std::string& address, const ServerStatus
       << (s.draining ? ", draining" : "") << "\n"
       << "scene       version " << s.version << ", newest stamp " << Seconds(s.stamp) << "\n";
   if (!s.scene_hash.empty()) out << "hash        " << s.scene_hash << "\n";
-  out << "frames      " << Grouped(s.frames_applied) << " applied, " << Grouped(s.frames_refused)
-      << " refused since it started, " << Grouped(s.queued_frames) << " waiting\n"
+  out << "frames      " << Grouped(s.frames_applied) << " applied (" << Grouped(s.frames_late)
+      << " of them late), " << Grouped(s.frames_refused) << " refused since it started, "
+      << Grouped(s.queued_frames) << " waiting\n"
       << "points      " << Grouped(s.points_used) << " used, " << Grouped(s.points_not_finite)
       << " not finite since it started\n"
       << "static map  " << Plural(s.static_observed_voxels, "voxel") << " observed, "

@@ -44,7 +44,8 @@ Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unla
 
 void Evaluator::Add(std::size_t k, const Frame& frame, const FrameReport& report, ScenePtr scene) {
   constexpr std::size_t kWaysEvery = 5;
-  predictions_.Add(*scene);
+  // A late frame moves no object on: what it shows was scored with the newest frame.
+  if (report.late_by == Duration::zero()) predictions_.Add(*scene);
   boxes_.Add(*scene);
   if (judge_) judge_->Add(k, frame, *scene);
   if (box_judge_) box_judge_->Add(k, frame, *scene);

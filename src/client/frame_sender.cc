@@ -1,6 +1,7 @@
 #include "clearway/client/frame_sender.h"
 
 #include <algorithm>
+#include <random>
 #include <utility>
 
 #include "client/call.h"
@@ -8,8 +9,18 @@
 #include "wire/frame_wire.h"
 
 namespace clearway {
+
 struct FrameSender::Impl {
-  absl::StatusOr<PushAck> Push(const v1::PushFrameRequest& request) const {
+  // Of both kinds of push.
+  template <class Request>
+  void Finish(Request& request) const {
+    v1::Frame& frame = *request.mutable_frame();
+    if (frame.sensor_run() == 0) frame.set_sensor_run(options.sensor_run);
+    request.set_allow_stamp_jump(options.allow_stamp_jump);
+  }
+  absl::StatusOr<PushAck> Push(v1::PushFrameRequest request, AckLevel wait_for) const {
+    Finish(request);
+    request.set_wait_for(ToProto(wait_for));
     auto response = Call(connection->options(), *connection->impl().ingest,
                          &v1::IngestService::Stub::PushFrame, request);
     if (!response.ok()) return response.status();
@@ -21,15 +32,26 @@ struct FrameSender::Impl {
     if (stream == nullptr) return absl::FailedPreconditionError("no stream is open");
     v1::PushFramesRequest request;
     fill(request.mutable_frame());
+    Finish(request);
     return stream->Send(std::move(request));
   }
 
   std::shared_ptr<Connection> connection;
+  SenderOptions options;
   std::unique_ptr<PushStream> stream;
 };
 
-FrameSender::FrameSender(std::shared_ptr<Connection> connection)
-    : impl_(std::make_unique<Impl>(Impl{std::move(connection), nullptr})) {}
+std::uint64_t RandomSensorRun() {
+  std::random_device random;
+  std::uint64_t run = 0;
+  while (run == 0) run = std::uint64_t{random()} << 32 | random();
+  return run;
+}
+
+FrameSender::FrameSender(std::shared_ptr<Connection> connection, const SenderOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{std::move(connection), options, nullptr})) {
+  if (options.sensor_run == 0) impl_->options.sensor_run = RandomSensorRun();
+}
 FrameSender::~FrameSender() = default;
 FrameSender::FrameSender(FrameSender&&) noexcept = default;
 FrameSender& FrameSender::operator=(FrameSender&&) noexcept = default;
@@ -37,16 +59,14 @@ FrameSender& FrameSender::operator=(FrameSender&&) noexcept = default;
 absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, AckLevel wait_for) {
   v1::PushFrameRequest request;
   Write(frame, request.mutable_frame());
-  request.set_wait_for(ToProto(wait_for));
-  return impl_->Push(request);
+  return impl_->Push(std::move(request), wait_for);
 }
 
 absl::StatusOr<PushAck> FrameSender::Push(const Frame& frame, const DepthImage& image,
                                           AckLevel wait_for) {
   v1::PushFrameRequest request;
   Write(frame, image, request.mutable_frame());
-  request.set_wait_for(ToProto(wait_for));
-  return impl_->Push(request);
+  return impl_->Push(std::move(request), wait_for);
 }
 
 absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for,
@@ -81,6 +101,8 @@ absl::Status FrameSender::CloseStream() {
 StreamState FrameSender::state() const {
   return impl_->stream == nullptr ? StreamState{} : impl_->stream->state();
 }
+
+std::uint64_t FrameSender::sensor_run() const { return impl_->options.sensor_run; }
 
 std::size_t FrameSender::unanswered() const {
   return impl_->stream == nullptr ? 0 : impl_->stream->unanswered();

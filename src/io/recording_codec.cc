@@ -16,7 +16,9 @@ static_assert(std::endian::native == std::endian::little, "recordings are little
 constexpr std::int64_t kHasNoReturn = 1;
 constexpr std::int64_t kHasOrigins = 2;
 constexpr std::int64_t kHasParts = 4;
-constexpr std::size_t kPartBytes = 8;                  // id, whole
+constexpr std::int64_t kHasRun = 8;
+constexpr std::size_t kPartBytes = 8;  // id, whole
+constexpr std::size_t kRunBytes = 8;
 constexpr std::size_t kPoseBytes = 56;                 // 7 doubles
 constexpr std::size_t kMotionBytes = 12 + kPoseBytes;  // id, from
 constexpr std::size_t kObjectPoseBytes = 4 + kPoseBytes;
@@ -79,7 +81,8 @@ class Reader {
 };
 
 std::size_t BytesOfPoints(std::size_t count, std::int64_t arrays) {
-  return count * (16 + (arrays & kHasNoReturn ? 1 : 0) + (arrays & kHasOrigins ? 12 : 0));
+  return count * (16 + (arrays & kHasNoReturn ? 1 : 0) + (arrays & kHasOrigins ? 12 : 0)) +
+         (arrays & kHasRun ? kRunBytes : 0);
 }
 
 absl::Status CheckLength(const char* field, std::size_t size, std::size_t points) {
@@ -149,7 +152,7 @@ absl::Status CheckRow(const RowView& row) {
     return absl::DataLossError(absl::StrCat("point_count: ", row.point_count,
                                             "; it must lie between 0 and ", kMaxRecordedPoints));
   }
-  if ((row.arrays & ~(kHasNoReturn | kHasOrigins | kHasParts)) != 0) {
+  if ((row.arrays & ~(kHasNoReturn | kHasOrigins | kHasParts | kHasRun)) != 0) {
     return absl::DataLossError(absl::StrCat("arrays: unknown bits in ", row.arrays));
   }
   if (row.world_from_sensor.size() != kPoseBytes) {
@@ -202,7 +205,8 @@ absl::StatusOr<EncodedRow> EncodeFrame(const Frame& frame, std::int64_t number,
   row.stamp_ns = ToNanoseconds(frame.stamp);
   row.point_count = static_cast<std::int64_t>(frame.points_S.size());
   row.arrays = (frame.no_return.empty() ? 0 : kHasNoReturn) |
-               (frame.origins_S.empty() ? 0 : kHasOrigins) | (frame.parts.empty() ? 0 : kHasParts);
+               (frame.origins_S.empty() ? 0 : kHasOrigins) | (frame.parts.empty() ? 0 : kHasParts) |
+               (frame.sensor_run == 0 ? 0 : kHasRun);
   PutPose(row.world_from_sensor, frame.T_W_S);
   for (const ObjectMotion& motion : frame.motions) {
     Put(row.motions, motion.id);
@@ -219,6 +223,7 @@ absl::StatusOr<EncodedRow> EncodeFrame(const Frame& frame, std::int64_t number,
   for (ObjectId label : frame.labels) Put(points, label);
   for (std::uint8_t flag : frame.no_return) Put(points, flag);
   PutVectors(points, frame.origins_S);
+  if (row.arrays & kHasRun) Put(points, frame.sensor_run);
   for (const ObjectPart& part : frame.parts) {
     Put(points, part.id);
     Put(points, part.whole);
@@ -259,6 +264,7 @@ absl::StatusOr<Frame> DecodeFrame(const RowView& row) {
   frame.labels = cloud.TakeArray<ObjectId>(count);
   if (row.arrays & kHasNoReturn) frame.no_return = cloud.TakeArray<std::uint8_t>(count);
   if (row.arrays & kHasOrigins) frame.origins_S = cloud.TakeVectors(count);
+  if (row.arrays & kHasRun) frame.sensor_run = cloud.Take<std::uint64_t>();
   for (std::size_t i = 0; i < (points->size() - bytes_of_points) / kPartBytes; ++i) {
     const ObjectId id = cloud.Take<ObjectId>();
     frame.parts.push_back({id, cloud.Take<ObjectId>()});

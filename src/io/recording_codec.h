@@ -23,7 +23,8 @@ struct RecordedRow {
   std::int64_t sequence = 0;  // two's complement
   std::int64_t stamp_ns = 0;
   std::int64_t point_count = 0;
-  std::int64_t arrays = 0;  // bit 0: no_return is there, bit 1: origins are, bit 2: parts
+  // Bit 0: no_return is there, bit 1: origins, bit 2: parts, bit 3: sensor_run.
+  std::int64_t arrays = 0;
   Text world_from_sensor;
   Text motions;
   Text poses;

@@ -9,8 +9,8 @@ namespace {
 
 absl::Status CheckBetween(const char* field, double value, double low, double high) {
   if (value > low && value < high) return absl::OkStatus();  // false for NaN
-  return absl::InvalidArgumentError(absl::StrCat("occupancy.", field, " is ", value,
-                                                 "; it must lie between ", low, " and ", high));
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " is ", value, "; it must lie between ", low, " and ", high));
 }
 
 }  // namespace
@@ -33,10 +33,11 @@ OccupancyModel::OccupancyModel(const OccupancyProbabilities& p)
 absl::Status Validate(const OccupancyProbabilities& p) {
   constexpr double kLowest = 0.0004, kHighest = 0.9996;  // log-odds -7.8 and 7.8
   for (const absl::Status& status :
-       {CheckBetween("hit", p.hit, 0.5, kHighest), CheckBetween("miss", p.miss, kLowest, 0.5),
+       {CheckBetween("probability_hit", p.hit, 0.5, kHighest),
+        CheckBetween("probability_miss", p.miss, kLowest, 0.5),
         CheckBetween("clamp_min", p.clamp_min, kLowest, 0.5),
         CheckBetween("clamp_max", p.clamp_max, 0.5, kHighest),
-        CheckBetween("occupied", p.occupied, p.clamp_min, p.clamp_max)}) {
+        CheckBetween("occupied_threshold", p.occupied, p.clamp_min, p.clamp_max)}) {
     if (!status.ok()) return status;
   }
   return absl::OkStatus();

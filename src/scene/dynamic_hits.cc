@@ -52,8 +52,9 @@ DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dyn
     update.TakeHit(key);
     const DynamicVoxel* before = dynamic_W.Find(key);
     const bool goes_on = before != nullptr && stamp - before->last_hit <= longest_gap;
-    const DynamicVoxel voxel{key, goes_on ? before->first_hit : stamp, stamp};
-    if (stamp - voxel.first_hit >= params.dynamic_settle) {
+    const Time last_hit = goes_on ? std::max(before->last_hit, stamp) : stamp;  // of a late frame
+    const DynamicVoxel voxel{key, goes_on ? before->first_hit : stamp, last_hit};
+    if (last_hit - voxel.first_hit >= params.dynamic_settle) {
       change.settled.push_back(key);
     } else {
       change.voxels.push_back(voxel);
@@ -62,8 +63,9 @@ DynamicChange TakeDynamicHits(const VoxelMap& lasting_W, const DynamicSpace& dyn
   const auto first_old = static_cast<std::ptrdiff_t>(change.voxels.size());
   for (const DynamicVoxel& voxel : dynamic_W.voxels()) {
     const bool is_forgotten = lasting_W.Find(voxel.key) != lasting_W.model().clamp_min;
-    if (is_forgotten || IsPassed(update, voxel.key) ||
-        std::ranges::binary_search(hits, voxel.key, ComesBefore)) {
+    // A ray of a late frame says nothing about a hit that came after it.
+    const bool is_passed = voxel.last_hit <= stamp && IsPassed(update, voxel.key);
+    if (is_forgotten || is_passed || std::ranges::binary_search(hits, voxel.key, ComesBefore)) {
       continue;
     }
     if (stamp - voxel.last_hit > params.dynamic_life) {

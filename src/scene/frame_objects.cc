@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/dropped_object.h"
+#include "scene/late_frame.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
 
@@ -42,7 +43,7 @@ std::map<ObjectId, Sighting> SightingsOf(const SceneObjects& objects, const Clue
 // it is seen again, then where its frame is known.
 bool Continues(const MovingObject& object, const Sighting& sighting, const ClueMap& clues,
                Time stamp, const SceneParams& params) {
-  if (object.given()) return true;
+  if (object.given() || IsNewerThan(object, stamp)) return true;
   if (stamp - sighting.last_seen > params.object_lifetime) return false;
   const auto clue = clues.find(object.id);
   if (clue == clues.end() || clue->second.points.empty()) return true;
@@ -97,6 +98,13 @@ void UpdateObjects(const Frame& frame, const LabelledCloud& cloud, ClueMap clues
                    FrameReport& report) {
   const auto update = [&](ObjectId id, const ObjectClue& clue) {
     const auto known = objects.find(id);
+    if (known != objects.end() && IsNewerThan(*known->second, frame.stamp)) {
+      report.motions_ignored += clue.Places();
+      if (clue.points.empty()) return;
+      known->second = std::make_shared<const MovingObject>(
+          WithLatePoints(*known->second, cloud, clue, frame.stamp, params, pool));
+      return;
+    }
     std::optional<MovingObject> object =
         Updated(known == objects.end() ? nullptr : known->second.get(), id, clue, cloud,
                 frame.stamp, params, pool);

@@ -28,14 +28,6 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.future.empty()) object.future_velocity_O = {};
 }
 
-// When it was named so, unless by its newest id.
-void NoteId(MovingObject& object, ObjectId told_as, Time stamp) {
-  const std::vector<ObjectId> ids = object.Ids();
-  for (std::size_t i = 0; i < object.older_ids_told.size(); ++i) {
-    if (ids[i] == told_as) object.older_ids_told[i] = stamp;
-  }
-}
-
 // The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
 // the pose of the first.
 const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
@@ -115,6 +107,14 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
   object.bound =
       BoundOf(object.history, stamp, object.velocity_O.value_or(Twist{}), Solid{}, params);
   return object;
+}
+
+void NoteId(MovingObject& object, ObjectId told_as, Time stamp) {
+  const std::vector<ObjectId> ids = object.Ids();
+  for (std::size_t i = 0; i < object.older_ids_told.size(); ++i) {
+    Time& told = object.older_ids_told[i];
+    if (ids[i] == told_as) told = std::max(told, stamp);
+  }
 }
 
 MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,

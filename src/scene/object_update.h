@@ -40,6 +40,9 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
 MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,
                    Time stamp, const SceneParams& params);
 
+// Notes that a frame of that stamp used the id, unless it is the object's newest one.
+void NoteId(MovingObject& object, ObjectId told_as, Time stamp);
+
 // Whether the object was unplaced for so long that nothing tells where O is in this frame: a motion
 // that starts, or a prediction that would have to reach, beyond the horizon. Its model has to be
 // begun anew. Nor does a frame from before the pose of a given object tell where that one is.

@@ -6,10 +6,12 @@
 #include "absl/strings/str_cat.h"
 #include "scene/dynamic_hits.h"
 #include "scene/frame_objects.h"
+#include "scene/frame_stamps.h"
 #include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
+#include "scene/scene_size.h"
 #include "scene/second_look.h"
 #include "scene/sensor_registration.h"
 
@@ -63,19 +65,6 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
   return absl::OkStatus();
 }
 
-absl::Status CheckSize(const VoxelMap& static_map_W, const ObjectMap& objects,
-                       const SceneObjects& dropped_lately, const Surroundings& around_objects,
-                       const FrameLimits& limits) {
-  std::size_t blocks = static_map_W.blocks().size();
-  for (const auto& [id, around_O] : around_objects) blocks += around_O.blocks().size();
-  for (const auto& [id, object] : objects) blocks += object->map_O.blocks().size();
-  for (const auto& object : dropped_lately) blocks += object->map_O.blocks().size();
-  if (blocks <= limits.max_blocks) return absl::OkStatus();
-  return absl::ResourceExhaustedError(absl::StrCat(
-      "points_m: the scene's maps would hold ", blocks, " blocks; the limit is ", limits.max_blocks,
-      "; give the scene a keep_distance_m or a higher limit max_blocks"));
-}
-
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
@@ -85,13 +74,19 @@ SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits,
       pool_(&pool),
       caster_(pool) {}
 
-absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
+absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame, const ApplyOptions& options) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
+  if (has_frames_) {
+    absl::Status status = CheckStamp(frame, scene_.stamp, sensor_stamps_, limits_, options);
+    if (!status.ok()) return status;
+  }
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
   if (!scene_.params.MendsSensorPoses()) return ApplyInScene(frame);
 
   WorldCorrections corrections = corrections_;
-  const bool is_known = !corrections.Empty() && corrections.NewestStamp() == frame.stamp;
+  // Of a late frame the correction lies between those of the frames about it.
+  const bool is_known =
+      IsLate(frame.stamp) || (!corrections.Empty() && corrections.NewestStamp() == frame.stamp);
   if (!is_known) {  // else by another sensor's scan, and objects are placed by it
     corrections.Add(frame.stamp,
                     RegisterWorld(frame, scene_.LastingMap(), corrections_, scene_.params));
@@ -105,8 +100,11 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
   if (absl::Status status = CheckParts(frame, scene_.objects); !status.ok()) return status;
 
+  const bool late = IsLate(frame.stamp);
+  const Time now = late ? scene_.stamp : frame.stamp;
   FrameReport report;
   report.T_W_S = frame.T_W_S;
+  report.late_by = now - frame.stamp;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
   LabelDoubts doubts;
   if (scene_.params.filter_labels) {
@@ -120,39 +118,49 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
       Continuing(scene_.objects, frame.stamp, scene_.params, clues, static_map_W, report);
   auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
   if (!cast.ok()) return cast.status();
-  ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
+  if (!late) ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
   UpdateObjects(frame, cloud, std::move(clues), scene_.params, *pool_, objects, report);  // II-D
   ForgetFilled(believed_W_, scene_.stamp, objects, static_map_W);
+  // What is known of the newest stamp is the second look at a late frame's points.
+  if (late) ForgetFilled(doubts.believed_W, frame.stamp, objects, static_map_W, true);
   DynamicSpace dynamic_W = StillIn(static_map_W, *cast);
   report.voxels_dynamic = dynamic_W.voxels().size();
   SceneObjects dropped_lately;
   Surroundings around_objects;
   if (scene_.params.reidentify) {
-    dropped_lately =
-        DroppedLately(dropped_lately_, scene_.objects, objects, frame.stamp, scene_.params);
+    dropped_lately = DroppedLately(dropped_lately_, scene_.objects, objects, now, scene_.params);
     around_objects =
         SeenAround(around_objects_, objects, cloud, frame.stamp, scene_.params, *pool_);
-    report.objects_reidentified = JoinSeenAgain(objects, dropped_lately, cloud, frame.stamp,
-                                                around_objects, scene_.params, *pool_);
+    if (!late) {  // else the next frame on time does
+      report.objects_reidentified = JoinSeenAgain(objects, dropped_lately, cloud, frame.stamp,
+                                                  around_objects, scene_.params, *pool_);
+    }
     std::erase_if(around_objects,
                   [&](const auto& entry) { return !objects.contains(entry.first); });
   }
   if (absl::Status status = CheckObjects(objects, frame, limits_); !status.ok()) return status;
-  if (absl::Status status =
-          CheckSize(static_map_W, objects, dropped_lately, around_objects, limits_);
-      !status.ok()) {
-    return status;
+  SceneObjects next_objects;
+  for (auto& [id, object] : objects) next_objects.push_back(std::move(object));
+  const std::size_t blocks =
+      static_map_W.blocks().size() + BlocksOf(next_objects, dropped_lately, around_objects);
+  if (absl::Status status = CheckBlocks("points_m", blocks, limits_); !status.ok()) return status;
+
+  // Whatever takes memory comes before the first change.
+  SensorStamps sensor_stamps = WithStampOf(frame, now, sensor_stamps_, limits_);
+  if (late) {
+    doubts.believed_W = believed_W_;
+  } else if (frame.stamp == scene_.stamp) {
+    doubts.believed_W.insert(doubts.believed_W.begin(), believed_W_.begin(), believed_W_.end());
   }
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
-  if (frame.stamp != scene_.stamp) believed_W_.clear();
-  believed_W_.insert(believed_W_.end(), doubts.believed_W.begin(), doubts.believed_W.end());
+  believed_W_ = std::move(doubts.believed_W);
   dropped_lately_ = std::move(dropped_lately);
   around_objects_ = std::move(around_objects);
-  scene_.objects.clear();
-  for (auto& [id, object] : objects) scene_.objects.push_back(std::move(object));
-  scene_.stamp = frame.stamp;
+  scene_.objects = std::move(next_objects);
+  sensor_stamps_ = std::move(sensor_stamps);
+  scene_.stamp = now;
   has_frames_ = changed_ = true;
   return report;
 }
@@ -177,11 +185,6 @@ absl::StatusOr<DynamicSpace> SceneBuilder::CastIntoStatic(const LabelledCloud& c
 }
 
 absl::Status SceneBuilder::CheckFits(const Frame& frame) const {
-  if (has_frames_ && frame.stamp < scene_.stamp) {
-    return absl::FailedPreconditionError(absl::StrCat("stamp_ns: ", ToNanoseconds(frame.stamp),
-                                                      " lies before the scene's newest frame, ",
-                                                      ToNanoseconds(scene_.stamp)));
-  }
   const VoxelGrid& grid = scene_.static_map_W.grid();
   if (!grid.Addressable(frame.T_W_S.translation)) {
     return absl::InvalidArgumentError(
@@ -193,44 +196,12 @@ absl::Status SceneBuilder::CheckFits(const Frame& frame) const {
 
 ScenePtr SceneBuilder::Publish() {
   if (changed_) {
-    ++scene_.version;
-    published_ = std::make_shared<const SceneSnapshot>(scene_);
+    const auto next = std::make_shared<SceneSnapshot>(scene_);
+    next->version = ++scene_.version;
+    published_ = next;
     changed_ = false;
   }
   return published_;
-}
-
-absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
-  const double resolution_m = scene_.static_map_W.grid().resolution_m();
-  if (std::abs(prior_W.grid().resolution_m() - resolution_m) > 1e-9) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("map: has voxels of ", prior_W.grid().resolution_m(),
-                     " m; the scene has voxels of ", resolution_m, " m"));
-  }
-  const OccupancyModel& model = scene_.static_map_W.model();
-  prior_W.blocks().ForEach([&](BlockKey key, const VoxelBlock& prior) {
-    const VoxelBlock* before = scene_.static_map_W.blocks().Find(key);
-    VoxelBlock block = before == nullptr ? VoxelBlock{} : *before;
-    prior.observed.ForEach([&](int index) {
-      block.Set(index, std::clamp(prior.log_odds[index], model.clamp_min, model.clamp_max), model);
-    });
-    scene_.static_map_W.PutBlock(key, block);
-  });
-  scene_.dynamic_W = WithoutObserved(scene_.dynamic_W, prior_W);
-  believed_W_.clear();  // what the prior says there stays
-  changed_ = true;
-  return absl::OkStatus();
-}
-
-void SceneBuilder::ClearRegion(const Aabb& box_W) {
-  scene_.static_map_W.Forget(box_W);
-  scene_.dynamic_W = StillIn(scene_.static_map_W, scene_.dynamic_W);
-  changed_ = true;
-}
-
-void SceneBuilder::SetKeepOut(std::vector<Aabb> boxes_W) {
-  scene_.params.keep_out_W = std::move(boxes_W);
-  changed_ = true;
 }
 
 void SceneBuilder::Reset() {
@@ -241,6 +212,7 @@ void SceneBuilder::Reset() {
   dropped_lately_.clear();
   around_objects_.clear();
   corrections_ = WorldCorrections(scene_.params.history);
+  sensor_stamps_.clear();
   has_frames_ = false;
   changed_ = true;
 }

@@ -1,14 +1,18 @@
 #include "scene/second_look.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace clearway {
 namespace {
 
-// Null if it is not known where the object was.
-const StampedPose* PoseAt(const MovingObject& object, Time stamp) {
+// None if it is not known where the object was.
+std::optional<Pose> PoseAt(const MovingObject& object, Time stamp, bool between_poses) {
   const auto entry = std::ranges::lower_bound(object.history, stamp, {}, &StampedPose::stamp);
-  return entry == object.history.end() || entry->stamp != stamp ? nullptr : &*entry;
+  if (entry == object.history.end()) return std::nullopt;
+  if (entry->stamp == stamp) return entry->T_W_O;
+  if (!between_poses || entry == object.history.begin()) return std::nullopt;
+  return PredictPose(object, stamp, Duration::zero()).T_W_O;
 }
 
 // Whether the object fills the point's voxel, or one that is half a voxel from it along each axis.
@@ -35,13 +39,13 @@ void ForgetIfHitOnce(VoxelKey voxel, VoxelMap& map) {
 }  // namespace
 
 void ForgetFilled(std::span<const Eigen::Vector3f> believed_W, Time stamp, const ObjectMap& objects,
-                  VoxelMap& static_map_W) {
+                  VoxelMap& static_map_W, bool between_poses) {
   if (believed_W.empty()) return;
   for (const auto& [id, object] : objects) {
-    const StampedPose* then = PoseAt(*object, stamp);
-    if (then == nullptr) continue;
-    const Aabb box_W = Transformed(then->T_W_O, object->observed_box_O);
-    const Pose T_O_W = Inverse(then->T_W_O);
+    const std::optional<Pose> T_W_O = PoseAt(*object, stamp, between_poses);
+    if (!T_W_O) continue;
+    const Aabb box_W = Transformed(*T_W_O, object->observed_box_O);
+    const Pose T_O_W = Inverse(*T_W_O);
     for (const Eigen::Vector3f& point_W : believed_W) {
       const Eigen::Vector3d p_W = point_W.cast<double>();
       if (!box_W.Contains(p_W) || !FillsNear(*object, T_O_W * p_W)) continue;

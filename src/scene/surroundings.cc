@@ -47,7 +47,8 @@ Aabb BoxToLookAt(const ObjectMap& objects, const MovingObject& object, Time stam
   Aabb box_O;
   // By another sensor's scan, too, if it is known where the object is then.
   const bool is_placed =
-      object.t_k() == stamp || (object.velocity_O && stamp - object.t_k() <= kOutOfSight);
+      object.t_k() == stamp || (object.velocity_O && stamp - object.t_k() <= kOutOfSight &&
+                                stamp >= object.history.front().stamp);
   if (is_placed && IsYoung(object, stamp)) box_O = BoxOfLost(objects, object, params);
   if (IsLookedBeside(object, stamp)) box_O.Extend(BoxBeside(object, params));
   return box_O;
@@ -71,7 +72,7 @@ Surroundings SeenAround(const Surroundings& before, const ObjectMap& objects,
     if (object->given()) continue;
     const auto known = before.find(id);
     // What was first seen now is another one than that which went by its id before.
-    const bool goes_on = known != before.end() && object->first_seen < stamp;
+    const bool goes_on = known != before.end() && object->first_seen != stamp;
     VoxelMap around_O =
         goes_on ? known->second : VoxelMap(params.object_resolution_m, params.Model());
     const Aabb box_O = BoxToLookAt(objects, *object, stamp, params);

@@ -86,6 +86,7 @@ void ReadPoints(const v1::Frame& proto, const FrameLimits& limits, FieldReader& 
 
 void Write(const Frame& frame, v1::Frame* proto) {
   proto->set_sensor_id(frame.sensor_id);
+  proto->set_sensor_run(frame.sensor_run);
   proto->set_sequence(frame.sequence);
   proto->set_stamp_ns(ToNanoseconds(frame.stamp));
   Write(frame.T_W_S, proto->mutable_world_from_sensor());
@@ -122,6 +123,7 @@ absl::StatusOr<Frame> ReadFrame(const std::string& field, const v1::Frame& proto
   CheckSizes(proto, limits, read);
   Frame frame;
   frame.sensor_id = proto.sensor_id();
+  frame.sensor_run = proto.sensor_run();
   frame.sequence = proto.sequence();
   frame.stamp = read.Stamp("stamp_ns", proto.has_stamp_ns(), proto.stamp_ns());
   frame.T_W_S =
@@ -175,6 +177,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_points_doubted(ack.report.points_doubted);
   report->set_voxels_dynamic(ack.report.voxels_dynamic);
   if (ack.report.T_W_S) Write(*ack.report.T_W_S, report->mutable_world_from_sensor());
+  report->set_late_by_ns(ack.report.late_by.count());
 }
 
 PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
@@ -195,6 +198,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.objects_reidentified = report.objects_reidentified();
   ack.report.points_doubted = report.points_doubted();
   ack.report.voxels_dynamic = report.voxels_dynamic();
+  ack.report.late_by = Duration(report.late_by_ns());
   if (report.has_world_from_sensor()) {
     FieldReader read("report.");
     const Pose T_W_S = read.ReadPose("world_from_sensor", true, report.world_from_sensor());

@@ -31,6 +31,8 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_plans(limits.max_plans);
   proto->set_max_planning_s(limits.max_planning_s);
   proto->set_max_watch_streams(limits.max_watch_streams);
+  proto->set_max_stamp_jump_s(limits.max_stamp_jump_s);
+  proto->set_late_window_s(limits.late_window_s);
 }
 
 ServerLimits ReadLimits(const v1::Limits& proto) {
@@ -60,6 +62,8 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_plans = proto.max_plans();
   limits.max_planning_s = proto.max_planning_s();
   limits.max_watch_streams = proto.max_watch_streams();
+  limits.max_stamp_jump_s = proto.max_stamp_jump_s();
+  limits.late_window_s = proto.late_window_s();
   return limits;
 }
 
@@ -92,6 +96,7 @@ void Write(const ServerStatus& status, v1::GetStatusResponse* proto) {
   proto->set_draining(status.draining);
   proto->set_frames_applied(status.frames_applied);
   proto->set_frames_refused(status.frames_refused);
+  proto->set_frames_late(status.frames_late);
   proto->set_points_used(status.points_used);
   proto->set_points_not_finite(status.points_not_finite);
   proto->set_queued_frames(status.queued_frames);
@@ -116,6 +121,7 @@ absl::StatusOr<ServerStatus> ReadServerStatus(const v1::GetStatusResponse& proto
   status.draining = proto.draining();
   status.frames_applied = proto.frames_applied();
   status.frames_refused = proto.frames_refused();
+  status.frames_late = proto.frames_late();
   status.points_used = proto.points_used();
   status.points_not_finite = proto.points_not_finite();
   status.queued_frames = proto.queued_frames();

@@ -9,6 +9,7 @@
 
 #include "clients/cli_server.h"
 #include "io/lidar_example.h"
+#include "io/recording_example.h"
 
 namespace clearway {
 namespace {
@@ -18,15 +19,88 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-TEST_F(CliServer, ReplayIsAppliedOnce) {
-  const json first = Replay();
+TEST_F(CliServer, ReplayOfOneRunIsAppliedOnce) {
+  const std::vector<std::string> replay = {"replay",  "sim:small",    "--frames", "8",
+                                           "--quiet", "--sensor-run", "7"};
+  const json first = Ask(replay);
   EXPECT_EQ(first["frames"], kFrames);
   EXPECT_EQ(first["applied"], kFrames);
   EXPECT_EQ(first["repeated"], 0);
   const json status = Ask({"status"});
   EXPECT_EQ(status["frames_applied"], kFrames);
   EXPECT_EQ(status["version"], first["version"]);
-  EXPECT_EQ(Replay()["repeated"], kFrames);
+  EXPECT_EQ(Ask(replay)["repeated"], kFrames);
+  EXPECT_EQ(Clearway({"replay", "sim:small", "--sensor-run", "-1"}).exit_code, 2);
+}
+
+// Each replay is a run of its own: the second one starts over, which only a reset allows.
+TEST_F(CliServer, ASecondReplayIsRefusedAndSaysWhy) {
+  Replay();
+  const Finished dut = Clearway({"replay", "sim:small", "--frames", "8"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("before the newest frame of the same sensor"));
+  EXPECT_THAT(dut.err, HasSubstr("reset"));
+  EXPECT_EQ(Ask({"status"})["frames_applied"], kFrames);
+  Ask({"reset"});
+  EXPECT_EQ(Replay()["applied"], kFrames);
+}
+
+Frame OfSensor(const std::string& sensor, std::uint64_t sequence, double seconds) {
+  Frame frame;
+  frame.sensor_id = sensor;
+  frame.sequence = sequence;
+  frame.stamp = Time(FromSeconds(seconds));
+  frame.points_S = {{5, 0, 0.5F}};
+  frame.labels = {kStaticLabel};
+  return frame;
+}
+
+std::string Recorded(const TemporaryFolder& folder, const std::vector<Frame>& frames) {
+  WriteFrames(folder / "frames.cwr", frames);
+  return folder / "frames.cwr";
+}
+
+TEST_F(CliServer, ReplayOfTwoInterleavedSensors) {
+  std::vector<Frame> frames;
+  for (std::uint64_t k = 0; k < 5; ++k) {
+    const double front_s = 1 + 0.1 * static_cast<double>(k);
+    frames.push_back(OfSensor("front", k, front_s));
+    frames.push_back(OfSensor("rear", k, front_s - 0.01));
+  }
+  const TemporaryFolder folder;
+  const std::string file = Recorded(folder, frames);
+  const json dut = Ask({"replay", file, "--quiet"});
+  EXPECT_EQ(dut["applied"], 10);
+  EXPECT_EQ(dut["late"], 5);
+  EXPECT_EQ(dut["stamp_ns"], 1'400'000'000);
+  EXPECT_EQ(Ask({"status"})["frames_late"], 5);
+  Ask({"reset"});
+  EXPECT_THAT(
+      Clearway({"replay", file}).out,
+      HasSubstr("5 frames of a sensor arrived after newer ones of another, by up to 0.01 s"));
+}
+
+// The sensor counts from 0 again; its run tells one start from the other.
+TEST_F(CliServer, ReplayOfASensorThatRestarted) {
+  std::vector<Frame> frames;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    frames.push_back(OfSensor("cam", k % 2, 1 + 0.1 * static_cast<double>(k)));
+    frames.back().sensor_run = k / 2;
+  }
+  const TemporaryFolder folder;
+  EXPECT_EQ(Ask({"replay", Recorded(folder, frames), "--quiet"})["applied"], 4);
+}
+
+TEST_F(CliServer, ReplayOfAClockThatJumps) {
+  const TemporaryFolder folder;
+  const std::string file = Recorded(
+      folder, {OfSensor("cam", 0, 1), OfSensor("cam", 1, 1e5), OfSensor("cam", 2, 1e5 + 1)});
+  const Finished refused = Clearway({"replay", file});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("frame 1 of cam was refused"));
+  EXPECT_THAT(refused.err, HasSubstr("allow_stamp_jump"));
+  Ask({"reset"});
+  EXPECT_EQ(Ask({"replay", file, "--quiet", "--allow-stamp-jump"})["applied"], 3);
 }
 
 TEST_F(CliServer, ReplayShowsItsProgress) {

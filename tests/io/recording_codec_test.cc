@@ -71,6 +71,30 @@ TEST(RecordingCodec, WritesTheDocumentedBytes) {
             "0000803f0000803f0000000003000000");
 }
 
+TEST(RecordingCodec, KeepsTheRunOfTheSensorBeforeTheParts) {
+  Frame frame = DocumentedFrame();
+  frame.sensor_run = 0x0102030405060708;
+  frame.parts = {{3, 9}};
+  const auto dut = EncodeFrame(frame, 0, 3);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->arrays, 12);
+  EXPECT_EQ(absl::BytesToHexString(Unpacked(dut->points)).substr(64),
+            "0807060504030201"
+            "0300000009000000");
+  const auto back = DecodeFrame(ViewOf(*dut));
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_EQ(back->sensor_run, frame.sensor_run);
+  EXPECT_EQ(back->parts, frame.parts);
+  frame.parts.clear();
+  EXPECT_EQ(DecodeFrame(ViewOf(*EncodeFrame(frame, 0, 3)))->sensor_run, frame.sensor_run);
+}
+
+TEST(RecordingCodec, RefusesARunThatIsCutOff) {
+  EncodedRow row = ExampleRow();
+  row.arrays = 8;
+  EXPECT_THAT(ErrorOf(row), HasSubstr("not 40 bytes"));
+}
+
 TEST(RecordingCodec, ChecksumCoversEveryColumn) {
   const EncodedRow row = ExampleRow();
   const std::int64_t checksum = ChecksumOf(ViewOf(row));
@@ -93,8 +117,8 @@ TEST(RecordingCodec, RefusesRowsThatNoFrameMakes) {
   row.point_count = 3;
   EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 48 bytes"));
   row = ExampleRow();
-  row.arrays = 8;
-  EXPECT_THAT(ErrorOf(row), HasSubstr("arrays: unknown bits in 8"));
+  row.arrays = 16;
+  EXPECT_THAT(ErrorOf(row), HasSubstr("arrays: unknown bits in 16"));
   row.arrays = 1;
   EXPECT_THAT(ErrorOf(row), HasSubstr("points: not 34 bytes"));
   row = ExampleRow();

@@ -18,6 +18,7 @@ namespace clearway {
 inline Frame ExampleFrame(std::uint64_t sequence) {
   Frame frame;
   frame.sensor_id = "lidar front";
+  frame.sensor_run = 0x8000'0000'0000'0001;
   frame.sequence = std::numeric_limits<std::uint64_t>::max() - sequence;
   frame.stamp = TimeFromNanoseconds(315973157959879000 + 100 * static_cast<int>(sequence));
   frame.T_W_S = {Eigen::Quaterniond(0.1, -0.2, 0.3, 1.0 / 3.0), {-0.0, 1e-300, 1.0 / 7.0}};
@@ -50,9 +51,9 @@ inline bool SameBits(const Frame& a, const Frame& b) {
   const auto same_pose = [](const ObjectPose& x, const ObjectPose& y) {
     return x.id == y.id && SameBits(x.T_W_B, y.T_W_B);
   };
-  return a.sensor_id == b.sensor_id && a.sequence == b.sequence && a.stamp == b.stamp &&
-         SameBits(a.T_W_S, b.T_W_S) && SameBits(a.points_S, b.points_S) && a.labels == b.labels &&
-         a.no_return == b.no_return && SameBits(a.origins_S, b.origins_S) &&
+  return a.sensor_id == b.sensor_id && a.sensor_run == b.sensor_run && a.sequence == b.sequence &&
+         a.stamp == b.stamp && SameBits(a.T_W_S, b.T_W_S) && SameBits(a.points_S, b.points_S) &&
+         a.labels == b.labels && a.no_return == b.no_return && SameBits(a.origins_S, b.origins_S) &&
          std::equal(a.motions.begin(), a.motions.end(), b.motions.begin(), b.motions.end(),
                     same_motion) &&
          std::equal(a.poses.begin(), a.poses.end(), b.poses.begin(), b.poses.end(), same_pose);

@@ -44,11 +44,11 @@ TEST(OccupancyModel, RefusesEachFieldByName) {
     EXPECT_THAT(std::string(status.message()), testing::HasSubstr(field));
   };
   EXPECT_TRUE(Validate(OccupancyProbabilities{}).ok());
-  refuses([](auto& p) { p.hit = 0.5; }, "occupancy.hit");
-  refuses([](auto& p) { p.miss = 0.6; }, "occupancy.miss");
-  refuses([](auto& p) { p.clamp_min = NAN; }, "occupancy.clamp_min");
-  refuses([](auto& p) { p.clamp_max = 1.0; }, "occupancy.clamp_max");
-  refuses([](auto& p) { p.occupied = 0.05; }, "occupancy.occupied");
+  refuses([](auto& p) { p.hit = 0.5; }, "probability_hit");
+  refuses([](auto& p) { p.miss = 0.6; }, "probability_miss");
+  refuses([](auto& p) { p.clamp_min = NAN; }, "clamp_min");
+  refuses([](auto& p) { p.clamp_max = 1.0; }, "clamp_max");
+  refuses([](auto& p) { p.occupied = 0.05; }, "occupied_threshold");
 }
 
 }  // namespace

@@ -237,5 +237,27 @@ TEST_F(GivenObjectTest, ResetForgetsThem) {
   EXPECT_TRUE(dut_.AddObject(Person()).ok()) << "before any frame";
 }
 
+// Of another clock: until then it would stand still.
+TEST_F(GivenObjectTest, RefusesStampsFarAheadOfTheFrames) {
+  constexpr auto kCode = absl::StatusCode::kFailedPrecondition;
+  GivenObject given = Person();
+  given.pose.stamp = At(3601.1);
+  ExpectRefused(given, "stamp_ns: 3601100000000 lies more than 3600 s (max_stamp_jump_s)", kCode);
+  given.pose.stamp = At(1);
+  given.future = {{At(1.7e9), Pose::Translation(6, 0, 0)}};
+  ExpectRefused(given, "future.stamps_ns[0]: 1700000000000000000 lies more than", kCode);
+  given.future = {{At(3601), Pose::Translation(4, 0, 0)}, {At(1e5), Pose::Translation(6, 0, 0)}};
+  EXPECT_TRUE(dut_.AddObject(given).ok());  // where it is until then is said
+  EXPECT_EQ(dut_.SetFuture(1, {{At(1.7e9), Pose::Translation(6, 0, 0)}}).code(), kCode);
+  EXPECT_TRUE(dut_.SetFuture(1, {}).ok());
+}
+
+TEST_F(GivenObjectTest, WithoutFramesAnyStampWillDo) {
+  dut_.Reset();
+  GivenObject given = Person();
+  given.pose.stamp = At(1.7e9);
+  EXPECT_TRUE(dut_.AddObject(given).ok());
+}
+
 }  // namespace
 }  // namespace clearway

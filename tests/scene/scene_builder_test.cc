@@ -297,6 +297,40 @@ TEST_F(SceneBuilderTest, APriorReplacesWhatItHasObserved) {
   EXPECT_EQ(StaticState(dut, {1.05, 0.05, 0.05}), VoxelState::kFree);
 }
 
+TEST_F(SceneBuilderTest, RefusesAPriorOfMoreBlocksThanAllowedWhole) {
+  FrameLimits limits;
+  limits.max_blocks = 3;
+  SceneBuilder dut({}, limits, pool_);
+  Frame frame = FrameAt(0);
+  AddPoint(frame, kStaticLabel, {0.25, 0.05, 0.05});  // one block
+  ASSERT_TRUE(dut.Apply(frame).ok());
+  const std::string hash = dut.Publish()->Hash();
+  VoxelMap prior(0.1);
+  for (int x = 0; x < 4; ++x) prior.Set({8 * x, 0, 0}, 500);
+  const absl::Status refused = dut.LoadPrior(prior);
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_NE(refused.message().find("4 blocks; the limit is 3"), std::string::npos) << refused;
+  EXPECT_EQ(dut.Publish()->Hash(), hash);
+  VoxelMap smaller(0.1);
+  for (int x = 0; x < 3; ++x) smaller.Set({8 * x, 0, 0}, 500);
+  EXPECT_TRUE(dut.LoadPrior(smaller).ok());  // one of its blocks is there already
+  EXPECT_EQ(StaticState(dut, {1.65, 0.05, 0.05}), VoxelState::kOccupied);
+}
+
+TEST_F(SceneBuilderTest, ObjectsCountForTheBlocksOfAPrior) {
+  FrameLimits limits;
+  limits.max_blocks = 3;
+  SceneBuilder dut({}, limits, pool_);
+  Frame frame = FrameAt(0);
+  AddPoint(frame, 1, {0.25, 0.05, 0.05});  // a block of free space, and one of the object's
+  ASSERT_TRUE(dut.Apply(frame).ok());
+  VoxelMap prior(0.1);
+  prior.Set({80, 0, 0}, 500);
+  EXPECT_TRUE(dut.LoadPrior(prior).ok());
+  prior.Set({160, 0, 0}, 500);
+  EXPECT_EQ(dut.LoadPrior(prior).code(), absl::StatusCode::kResourceExhausted);
+}
+
 TEST_F(SceneBuilderTest, RefusesAPriorOfAnotherResolution) {
   SceneBuilder dut = Builder();
   EXPECT_EQ(dut.LoadPrior(VoxelMap(0.2)).code(), absl::StatusCode::kInvalidArgument);

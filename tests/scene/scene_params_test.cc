@@ -22,7 +22,7 @@ TEST(SceneParams, DefaultsAreValid) { EXPECT_TRUE(Validate(SceneParams{}).ok());
 TEST(SceneParams, RefusesEachFieldByName) {
   ExpectRefused([](auto& p) { p.resolution_m = 0; }, "resolution_m");
   ExpectRefused([](auto& p) { p.object_resolution_m = NAN; }, "object_resolution_m");
-  ExpectRefused([](auto& p) { p.occupancy.hit = 2; }, "occupancy.hit");
+  ExpectRefused([](auto& p) { p.occupancy.hit = 2; }, "probability_hit");
   ExpectRefused([](auto& p) { p.rays.max_range_m = 0; }, "max_range_m");
   ExpectRefused([](auto& p) { p.rays.max_range_m = INFINITY; }, "max_range_m");
   ExpectRefused([](auto& p) { p.rays.grazing_m = -1; }, "grazing_m");

@@ -67,6 +67,19 @@ TEST_F(ForgetFilledTest, NotWhereTheObjectIsNowOrAtATimeThatNobodyKnows) {
   EXPECT_EQ(AfterLookAt(kVoxel, kThen_s + 0.05), VoxelState::kOccupied);
 }
 
+TEST_F(ForgetFilledTest, BetweenTwoPosesIfAsked) {
+  constexpr VoxelKey kBetween{20, 5, 5};
+  Hit(kBetween, 1);
+  const auto look = [&](double at_s) {
+    ForgetFilled(std::vector{PointIn(kBetween)}, At(at_s), objects_, static_map_W_,
+                 /*between_poses=*/true);
+    return static_map_W_.State(kBetween);
+  };
+  EXPECT_EQ(look(kThen_s - 0.05), VoxelState::kOccupied);  // before its first pose
+  EXPECT_EQ(look(kThen_s + 0.15), VoxelState::kOccupied);  // after its last
+  EXPECT_EQ(look(kThen_s + 0.05), VoxelState::kUnknown);
+}
+
 TEST_F(ForgetFilledTest, AWorldWithoutObjects) {
   objects_.clear();
   Hit(kVoxel, 1);

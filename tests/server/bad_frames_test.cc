@@ -181,15 +181,16 @@ TEST_F(BadInput, BytesInAStreamThatAreNoMessage) {
 }
 
 // An accepted frame's name stays with its answer; what was never accepted leaves its name free.
-TEST_F(BadInput, ARepeatGetsTheFirstAnswerWhateverElseItHolds) {
+TEST_F(BadInput, ARepeatGetsTheFirstAnswerAndAnotherFrameOfItsNameIsRefused) {
+  Frame frame = testing_support::FrameAt(10);  // as SetUp pushed it
+  testing_support::AddPoint(frame, kStaticLabel, {3, 0, 0});
+  testing_support::AddPoint(frame, 1, {5, 0, 0});
   v1::PushFrameRequest request;
-  *request.mutable_frame() = ProtoOf(testing_support::FrameAt(10));
-  request.mutable_frame()->add_labels(-3);  // without a point
+  *request.mutable_frame() = ProtoOf(frame);
   v1::PushFrameResponse first, again;
   const auto push = [&](v1::PushFrameResponse* response) {
     return Call(*ingest_, &v1::IngestService::Stub::PushFrame, request, response);
   };
-  // The frame that SetUp pushed had the same name.
   ASSERT_TRUE(push(&first).ok());
   EXPECT_TRUE(first.repeated_answer());
   EXPECT_EQ(first.reached(), v1::ACK_LEVEL_APPLIED);
@@ -198,9 +199,23 @@ TEST_F(BadInput, ARepeatGetsTheFirstAnswerWhateverElseItHolds) {
   EXPECT_EQ(again.reached(), v1::ACK_LEVEL_APPLIED);
   EXPECT_EQ(again.scene().version(), first.scene().version());
   EXPECT_EQ(again.report().points_used(), first.report().points_used());
-  request.mutable_frame()->set_sequence(4711);  // malformed under a new name
+
+  request.mutable_frame()->set_points_m(0, 3.001F);
+  const absl::Status other = push(&again);
+  Expect(other, absl::StatusCode::kAlreadyExists, "");
+  EXPECT_EQ(ReasonOf(other), "FRAME_NAME_TAKEN");
+  request.mutable_frame()->clear_stamp_ns();  // malformed, whatever its name
+  Expect(push(&again), absl::StatusCode::kInvalidArgument, "frame.stamp_ns");
+  request.mutable_frame()->add_labels(-3);
   EXPECT_TRUE(absl::IsInvalidArgument(push(&again)));
-  EXPECT_FALSE(server_.core().ingestor.Find(request.frame().sensor_id(), 4711).has_value());
+  *request.mutable_frame() = ProtoOf(frame);
+  EXPECT_TRUE(push(&again).ok());
+
+  request.mutable_frame()->set_sequence(4711);  // malformed under a new name leaves it free
+  request.mutable_frame()->add_labels(0);
+  EXPECT_TRUE(absl::IsInvalidArgument(push(&again)));
+  request.mutable_frame()->set_points_m(0, kNan);
+  EXPECT_TRUE(absl::IsInvalidArgument(push(&again)));
 }
 
 TEST_F(BadInput, RefusedFramesAreCounted) {

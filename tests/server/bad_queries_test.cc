@@ -1,4 +1,7 @@
 // Queries, checks and maps that are refused.
+#include "clearway/client/frame_sender.h"
+#include "clearway/client/scene_client.h"
+#include "clearway/io/octomap_file.h"
 #include "server/bad_input.h"
 
 namespace clearway {
@@ -197,6 +200,34 @@ TEST_F(BadInput, Maps) {
   Expect(
       Call(*maps_, &v1::MapService::Stub::ClearRegion, v1::ClearRegionRequest(), &clear_response),
       Code::kInvalidArgument, "box_world");
+}
+
+// A prior that the maps have no room for, by itself or with what is there, changes nothing.
+TEST(PriorLimits, APriorOfTooManyBlocksIsRefusedWhole) {
+  ServerConfig config = testing_support::SmallConfig();
+  config.limits.max_blocks = 100;
+  const testing_support::TestServer server(config);
+  const SceneClient client(server.Connect());
+  const auto load = [&](int blocks) {
+    VoxelMap prior(config.scene.resolution_m);
+    for (int x = 0; x < blocks; ++x) prior.Set({8 * x, 0, 0}, 100);
+    return client.LoadPrior(MapFormat::kBt, *SerializeOctomap(prior, OctomapFormat::kBinary))
+        .status();
+  };
+  const std::string hash = server.Newest()->Hash();
+  const absl::Status alone = load(101);
+  EXPECT_TRUE(absl::IsResourceExhausted(alone)) << alone;
+  EXPECT_NE(alone.message().find("limits.max_blocks 100"), std::string::npos) << alone;
+  Frame frame = testing_support::FrameAt(1);
+  testing_support::AddPoint(frame, kStaticLabel, {0, -3, 0});
+  ASSERT_TRUE(FrameSender(server.Connect()).Push(frame).ok());
+  const std::string with_frame = server.Newest()->Hash();
+  EXPECT_NE(with_frame, hash);
+  const absl::Status together = load(100);
+  EXPECT_TRUE(absl::IsResourceExhausted(together)) << together;
+  EXPECT_NE(together.message().find("the limit is 100"), std::string::npos) << together;
+  EXPECT_EQ(server.Newest()->Hash(), with_frame);
+  EXPECT_TRUE(load(90).ok());
 }
 
 }  // namespace

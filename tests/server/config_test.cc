@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include "absl/strings/str_cat.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -131,6 +134,74 @@ TEST(ServerConfig, RefusesBadValuesNamingTheKey) {
   for (const auto& [arguments, key] : cases) {
     const std::string message = Refusal(arguments);
     EXPECT_EQ(message.rfind(key, 0), 0u) << message;
+  }
+}
+
+// Each number's range is checked where it is read, whatever type holds it afterwards.
+TEST(ServerConfig, RefusesNumbersOutOfRangeNamingKeyValueAndRange) {
+  const TemporaryFolder folder;
+  const std::tuple<std::string, std::string, std::string> cases[] = {
+      {"limits.max_calls", "2147483647", "1 and 65536"},
+      {"limits.max_calls", "4294967295", "1 and 65536"},
+      {"limits.max_calls", "0", "1 and 65536"},
+      {"limits.max_calls", "-1", "1 and 65536"},
+      {"limits.max_calls", "99999999999999999999999999", "1 and 65536"},
+      {"limits.max_plans", "18446744073709551615", "1 and 65536"},
+      {"limits.max_message_bytes", "1073741825", "1 and 1073741824"},
+      {"limits.max_blocks", "18446744073709551615", "1 and 1e+09"},
+      {"limits.max_coordinate_m", "1000001", "0.001 and 1e+06"},
+      {"limits.max_coordinate_m", "inf", "0.001 and 1e+06"},
+      {"limits.max_lease_ttl_s", "1e300", "0.001 and 1e+06"},
+      {"limits.max_planning_s", "-1", "0.001 and 1e+06"},
+      {"limits.late_window_s", "10.1", "0 and 10"},
+      {"limits.max_stamp_jump_s", "0", "0.001 and 1e+09"},
+      {"threads", "4294967297", "0 and 256"},
+      {"threads", "257", "0 and 256"},
+      {"kept_versions", "10001", "0 and 10000"},
+      {"scene.horizon_s", "86401", "0 and 86400"},
+      {"scene.history_s", "1e12", "0 and 86400"},
+      {"scene.object_resolution_m", "101", "0.001 and 100"},
+      {"scene.probability_hit", "0.4", "0.5 and 0.9996"},
+      {"scene.sensor_pose_error_rad", "1.5", "0 and 1"},
+  };
+  for (const auto& [key, value, range] : cases) {
+    SCOPED_TRACE(absl::StrCat(key, " = ", value));
+    const Setting* setting = nullptr;
+    for (const Setting& candidate : Settings()) {
+      if (candidate.key == key) setting = &candidate;
+    }
+    ASSERT_NE(setting, nullptr);
+    const std::string expected = absl::StrCat(key, ": is ", value, "; it must lie between ", range);
+    EXPECT_EQ(Refusal({absl::StrCat(setting->FlagName(), "=", value)}), expected);
+    EXPECT_EQ(Refusal({}, {absl::StrCat(setting->EnvironmentName(), "=", value)}), expected);
+    const std::size_t dot = key.find('.');
+    const std::string section =
+        dot == std::string::npos ? "" : absl::StrCat("[", key.substr(0, dot), "]\n");
+    const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
+    const auto file = folder.Write("c.toml", absl::StrCat(section, name, " = \"", value, "\"\n"));
+    EXPECT_EQ(Refusal({"--config", file.string()}), expected);
+  }
+}
+
+TEST(ServerConfig, TheEndsOfARangeAreAccepted) {
+  const ServerConfig dut = Read({"--limits-max-calls", "65536", "--limits-late-window-s", "0",
+                                 "--limits-max-stamp-jump-s", "1e9", "--threads", "256"});
+  EXPECT_EQ(dut.limits.max_calls, 65'536u);
+  EXPECT_EQ(dut.limits.late_window_s, 0);
+  EXPECT_EQ(dut.threads, 256);
+}
+
+TEST(ServerConfig, AConfigurationThatIsNotReadIsCheckedToo) {
+  ServerConfig config;
+  config.limits.max_calls = 4'294'967'295;
+  EXPECT_EQ(Validate(config).message(),
+            "limits.max_calls: is 4294967295; it must lie between 1 and 65536");
+}
+
+TEST(ServerConfig, RefusesBoxesThatAreNone) {
+  for (const char* box : {"0 0 0 1 1 nan", "0 0 0 1 1 inf", "0 0 2 1 1 1"}) {
+    EXPECT_EQ(Refusal({"--scene-bounds-m", box}).rfind("scene.bounds_m: \"", 0), 0u);
+    EXPECT_EQ(Refusal({"--scene-keep-out-m", box}).rfind("scene.keep_out_m: \"", 0), 0u);
   }
 }
 

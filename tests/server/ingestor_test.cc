@@ -19,6 +19,12 @@ using testing_support::FrameAt;
 
 const Gone kNever = [] { return false; };
 
+// The frame is all of its content here.
+PushedFrame Pushed(Frame frame, bool allow_stamp_jump = false) {
+  const std::uint64_t hash = frame.points_S.empty() ? 0 : 1 + frame.points_S.size();
+  return {std::move(frame), hash, allow_stamp_jump};
+}
+
 Frame Numbered(std::uint64_t sequence, double seconds) {
   Frame frame = FrameAt(seconds);
   frame.sequence = sequence;
@@ -28,8 +34,8 @@ Frame Numbered(std::uint64_t sequence, double seconds) {
 
 class IngestorTest : public testing::Test {
  protected:
-  Ingestor::Answer Push(Frame frame) {
-    auto ticket = dut_->Push(std::move(frame));
+  Ingestor::Answer Push(Frame frame, bool allow_stamp_jump = false) {
+    auto ticket = dut_->Push(Pushed(std::move(frame), allow_stamp_jump));
     return ticket.ok() ? Ingestor::Wait(*ticket, kNever) : ticket.status();
   }
   // Keeps the writer busy until the returned promise is set.
@@ -102,8 +108,7 @@ TEST_F(IngestorTest, TheWriterIsInterruptedWhileItApplies) {
 TEST_F(IngestorTest, ARepeatGetsTheFirstAnswerAndChangesNothing) {
   const auto first = Push(Numbered(1, 1));
   const std::string hash = versions_.Newest()->Hash();
-  Frame other = Numbered(1, 5);  // the same name, whatever else it says
-  const auto again = Push(other);
+  const auto again = Push(Numbered(1, 1));
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_FALSE(first->repeated_answer);
   EXPECT_TRUE(again->repeated_answer);
@@ -111,11 +116,82 @@ TEST_F(IngestorTest, ARepeatGetsTheFirstAnswerAndChangesNothing) {
   EXPECT_EQ(versions_.Newest()->Hash(), hash);
 }
 
+TEST_F(IngestorTest, ANameWithAnotherStampIsRefusedNamingBoth) {
+  ASSERT_TRUE(Push(Numbered(0, 1)).ok());
+  const std::string hash = versions_.Newest()->Hash();
+  const absl::Status refused = Push(Numbered(0, 10)).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(ReasonOf(refused), "FRAME_NAME_TAKEN");
+  EXPECT_EQ(
+      refused.message(),
+      "frame.sequence: 0 of sensor \"lidar\" without sensor_run names another frame: that one "
+      "has stamp_ns 1000000000, this one 10000000000; a sensor that restarts and counts from 0 "
+      "again must choose a new sensor_run");
+  EXPECT_EQ(versions_.Newest()->Hash(), hash);
+  EXPECT_EQ(dut_->counts().frames_refused, 1u);
+  EXPECT_TRUE(Push(Numbered(0, 1))->repeated_answer);  // the first still has its name
+}
+
+TEST_F(IngestorTest, ANameWithAnotherContentIsRefused) {
+  ASSERT_TRUE(Push(Numbered(0, 1)).ok());
+  Frame other = Numbered(0, 1);
+  testing_support::AddPoint(other, kStaticLabel, {3, 3, 0.5});
+  const absl::Status refused = Push(other).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_NE(refused.message().find("both have stamp_ns 1000000000, but their content differs"),
+            std::string::npos)
+      << refused;
+}
+
+TEST_F(IngestorTest, AnotherRunIsAnotherName) {
+  ASSERT_TRUE(Push(Numbered(0, 1)).ok());
+  Frame restarted = Numbered(0, 10);
+  restarted.sensor_run = 77;
+  const auto applied = Push(restarted);
+  ASSERT_TRUE(applied.ok()) << applied.status();
+  EXPECT_FALSE(applied->repeated_answer);
+  EXPECT_EQ(versions_.Newest()->stamp, testing_support::At(10));
+  EXPECT_TRUE(Push(restarted)->repeated_answer);
+  EXPECT_TRUE(Push(Numbered(0, 1))->repeated_answer);
+  restarted.stamp = testing_support::At(11);
+  EXPECT_NE(Push(restarted).status().message().find("of sensor_run 77"), std::string::npos);
+}
+
+TEST_F(IngestorTest, ARestartWithAClockThatWentBackIsRefused) {
+  ASSERT_TRUE(Push(Numbered(0, 10)).ok());
+  Frame restarted = Numbered(0, 1);
+  restarted.sensor_run = 77;
+  EXPECT_TRUE(absl::IsFailedPrecondition(Push(restarted).status()));
+}
+
 TEST_F(IngestorTest, ARefusalIsRememberedToo) {
   ASSERT_TRUE(Push(Numbered(1, 10)).ok());
   EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 5)).status()));
-  EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 11)).status()));
+  EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 5)).status()));
   EXPECT_EQ(dut_->counts().frames_refused, 1u);
+  EXPECT_TRUE(absl::IsAlreadyExists(Push(Numbered(2, 11)).status()));
+}
+
+TEST_F(IngestorTest, AJumpThatWasRefusedMayBeAllowedAfterwards) {
+  ASSERT_TRUE(Push(Numbered(1, 1)).ok());
+  EXPECT_TRUE(absl::IsFailedPrecondition(Push(Numbered(2, 3e7)).status()));
+  const auto allowed = Push(Numbered(2, 3e7), /*allow_stamp_jump=*/true);
+  ASSERT_TRUE(allowed.ok()) << allowed.status();
+  EXPECT_FALSE(allowed->repeated_answer);
+  EXPECT_TRUE(Push(Numbered(2, 3e7))->repeated_answer);
+  EXPECT_TRUE(Push(Numbered(2, 3e7), true)->repeated_answer);
+}
+
+TEST_F(IngestorTest, LateFramesAreCounted) {
+  ASSERT_TRUE(Push(Numbered(1, 1)).ok());
+  Frame late = Numbered(1, 0.9);
+  late.sensor_id = "rear";
+  const auto ack = Push(late);
+  ASSERT_TRUE(ack.ok()) << ack.status();
+  EXPECT_EQ(ack->report.late_by, std::chrono::milliseconds(100));
+  EXPECT_EQ(ack->stamp, testing_support::At(1));
+  EXPECT_EQ(dut_->counts().frames_late, 1u);
+  EXPECT_EQ(dut_->counts().frames_applied, 2u);
 }
 
 TEST_F(IngestorTest, RemembersAsManyAnswersAsItMay) {
@@ -149,7 +225,7 @@ TEST_F(IngestorTest, AFramePushedWhileAResetWaitsIsRememberedAfterIt) {
                       },
                       true)
                   .ok());
-  const auto first = dut_->Push(Numbered(1, 1));
+  const auto first = dut_->Push(Pushed(Numbered(1, 1)));
   release.set_value();
   ASSERT_TRUE(Ingestor::Wait(*first, kNever).ok());
   EXPECT_TRUE(Push(Numbered(1, 1))->repeated_answer);
@@ -157,9 +233,9 @@ TEST_F(IngestorTest, AFramePushedWhileAResetWaitsIsRememberedAfterIt) {
 
 TEST_F(IngestorTest, AFullQueueRefusesAndTheFrameMayComeAgain) {
   std::promise<void> release = Block();
-  ASSERT_TRUE(dut_->Push(Numbered(1, 1)).ok());
-  ASSERT_TRUE(dut_->Push(Numbered(2, 1)).ok());
-  const absl::Status full = dut_->Push(Numbered(3, 1)).status();
+  ASSERT_TRUE(dut_->Push(Pushed(Numbered(1, 1))).ok());
+  ASSERT_TRUE(dut_->Push(Pushed(Numbered(2, 1))).ok());
+  const absl::Status full = dut_->Push(Pushed(Numbered(3, 1))).status();
   EXPECT_TRUE(absl::IsResourceExhausted(full));
   EXPECT_EQ(ReasonOf(full), "QUEUE_FULL");
   release.set_value();
@@ -169,7 +245,7 @@ TEST_F(IngestorTest, AFullQueueRefusesAndTheFrameMayComeAgain) {
 
 TEST_F(IngestorTest, ARepeatOfAWaitingFrameSharesItsAnswer) {
   std::promise<void> release = Block();
-  const auto first = dut_->Push(Numbered(1, 1)), again = dut_->Push(Numbered(1, 1));
+  const auto first = dut_->Push(Pushed(Numbered(1, 1))), again = dut_->Push(Pushed(Numbered(1, 1)));
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(dut_->counts().queued, 1u);
   release.set_value();
@@ -178,19 +254,20 @@ TEST_F(IngestorTest, ARepeatOfAWaitingFrameSharesItsAnswer) {
 
 TEST_F(IngestorTest, WaitingForRoomEndsWhenTheClientGoes) {
   std::promise<void> release = Block();
-  ASSERT_TRUE(dut_->Push(Numbered(1, 1)).ok());
-  ASSERT_TRUE(dut_->Push(Numbered(2, 1)).ok());
-  EXPECT_TRUE(absl::IsCancelled(dut_->PushWhenRoom(Numbered(3, 1), [] { return true; }).status()));
+  ASSERT_TRUE(dut_->Push(Pushed(Numbered(1, 1))).ok());
+  ASSERT_TRUE(dut_->Push(Pushed(Numbered(2, 1))).ok());
+  EXPECT_TRUE(
+      absl::IsCancelled(dut_->PushWhenRoom(Pushed(Numbered(3, 1)), [] { return true; }).status()));
   release.set_value();
 }
 
 TEST_F(IngestorTest, DrainingFinishesWhatWasAcceptedAndRefusesTheRest) {
   std::promise<void> release = Block();
-  const auto accepted = dut_->Push(Numbered(1, 1));
+  const auto accepted = dut_->Push(Pushed(Numbered(1, 1)));
   std::thread drain([&] { dut_->Drain(); });
   // Until the drain has begun, the queue fills up instead.
   std::uint64_t sequence = 100;
-  while (!absl::IsUnavailable(dut_->Push(Numbered(sequence, 1)).status())) ++sequence;
+  while (!absl::IsUnavailable(dut_->Push(Pushed(Numbered(sequence, 1))).status())) ++sequence;
   release.set_value();
   drain.join();
   EXPECT_TRUE(Ingestor::Wait(*accepted, kNever).ok());

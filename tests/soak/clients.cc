@@ -19,10 +19,6 @@ constexpr std::chrono::seconds kSensorLife(20);
 constexpr std::chrono::seconds kChecked(2), kWatched(30);  // how long motions take
 constexpr std::size_t kStates = 256, kMotions = 8, kMaxFaults = 10;
 
-// Where a sensor begins to count when it restarts. Its frames are named by sensor and sequence
-// alone, so it has to go on.
-std::uint64_t FirstSequenceAfterRestart(std::uint64_t last) { return last + 1; }
-
 Robot Vehicle() { return Robot::SingleShape("vehicle", Box{{1.2, 0.8, 0.6}}); }
 
 ConnectionOptions Patient() {
@@ -65,10 +61,10 @@ void SleepUntil(Clock::time_point time, const Everyone& all) {
   }
 }
 
-// One life of the sensors: a connection and a stream of their own.
+// One run of the sensors: a connection and a stream of their own, and sequences from 0 on.
 class SensorRun {
  public:
-  SensorRun(Everyone& all, std::uint64_t first_sequence) : all_(all), next_(first_sequence) {
+  explicit SensorRun(Everyone& all) : all_(all) {
     auto connection = Connection::Open(all.address, Patient());
     if (!connection.ok()) {
       all.faults.Note("sensor", connection.status());
@@ -103,11 +99,10 @@ class SensorRun {
     if (!sender_) return;
     if (auto sent = sender_->Send(frame); !sent.ok()) all_.faults.Note("sensor", sent);
   }
-  std::uint64_t last_sequence() const { return next_ - 1; }
 
  private:
   Everyone& all_;
-  std::uint64_t next_;
+  std::uint64_t next_ = 0;
   std::optional<FrameSender> sender_;
 };
 
@@ -133,10 +128,9 @@ std::uint64_t Faults::count() const {
 }
 
 void RunSensors(Everyone& all, LoopedFrames frames, BridgedObject bridged) {
-  std::uint64_t last = 0;
   Clock::time_point next = Clock::now();
   while (!all.stop) {
-    SensorRun run(all, FirstSequenceAfterRestart(last));
+    SensorRun run(all);
     const Clock::time_point end = Clock::now() + kSensorLife;
     while (!all.stop && Clock::now() < end) {
       Frame frame = frames.Next();
@@ -147,7 +141,6 @@ void RunSensors(Everyone& all, LoopedFrames frames, BridgedObject bridged) {
       next = std::max(next + kFramePeriod, Clock::now());
       SleepUntil(next, all);
     }
-    last = run.last_sequence();
     ++all.tally.sensor_restarts;
   }
 }

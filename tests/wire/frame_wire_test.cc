@@ -39,6 +39,7 @@ v1::Frame FullProto() {
 
 void ExpectEqual(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.sensor_id, b.sensor_id);
+  EXPECT_EQ(a.sensor_run, b.sensor_run);
   EXPECT_EQ(a.sequence, b.sequence);
   EXPECT_EQ(a.stamp, b.stamp);
   EXPECT_EQ(a.T_W_S, b.T_W_S);

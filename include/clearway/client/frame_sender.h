@@ -14,12 +14,24 @@
 
 namespace clearway {
 
-// Pushes frames, one at a time or as a stream. Pushing is idempotent: (sensor_id, sequence) names a
-// frame, so that a retry after UNAVAILABLE never applies it twice. Push may be called from any
-// thread; the stream's methods from one thread at a time.
+struct SenderOptions {
+  // Of frames whose Frame::sensor_run is 0. 0: a random one for each sender, so that a program that
+  // restarts may count sequences from 0 again.
+  std::uint64_t sensor_run = 0;
+  // Whether the server takes stamps further ahead than its max_stamp_jump_s.
+  bool allow_stamp_jump = false;
+};
+
+// Not 0; from the system's source of random numbers.
+std::uint64_t RandomSensorRun();
+
+// Pushes frames, one at a time or as a stream. Pushing is idempotent: (sensor_id, sensor_run,
+// sequence) names a frame, so that a retry after UNAVAILABLE never applies it twice. To repeat a
+// frame by another sender, give both the same run. Push may be called from any thread; the stream's
+// methods from one thread at a time.
 class FrameSender {
  public:
-  explicit FrameSender(std::shared_ptr<Connection> connection);
+  explicit FrameSender(std::shared_ptr<Connection> connection, const SenderOptions& options = {});
   ~FrameSender();  // abandons a stream that was not finished
   FrameSender(FrameSender&&) noexcept;
   FrameSender& operator=(FrameSender&&) noexcept;
@@ -52,6 +64,7 @@ class FrameSender {
 
   StreamState state() const;       // of the open stream
   std::size_t unanswered() const;  // frames sent without an answer yet
+  std::uint64_t sensor_run() const;
 
  private:
   struct Impl;

@@ -46,7 +46,9 @@ struct ObjectPart {
 // motion-compensated to `stamp`. Plain data: Validate says whether it is well formed. Points that
 // are NaN or infinite are no error: they are dropped and counted.
 struct Frame {
+  // The three together name the frame.
   std::string sensor_id;
+  std::uint64_t sensor_run = 0;  // of this start of the sensor, at random; 0: not given
   std::uint64_t sequence = 0;
   Time stamp;
   Pose T_W_S;
@@ -78,6 +80,11 @@ struct FrameLimits {
   double max_coordinate_m = 100'000;  // of positions; also bounded by what the grid can address
   // Of 8 x 8 x 8 voxels, in all maps of the scene together: 1.3 KB each, up to 3 KB if scattered.
   std::size_t max_blocks = std::size_t{1} << 22;
+  // How far a stamp may lie after the scene's newest: a clock that jumped would lock out all
+  // others.
+  Duration max_stamp_jump = std::chrono::hours(1);
+  // How far it may lie before that, if newer frames came from other sensors only.
+  Duration late_window = std::chrono::milliseconds(200);
   bool operator==(const FrameLimits&) const = default;
 };
 

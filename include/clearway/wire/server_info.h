@@ -36,6 +36,8 @@ struct ServerLimits {
   std::uint64_t max_plans = 4;       // at once
   double max_planning_s = 60;
   std::uint64_t max_watch_streams = 64;
+  double max_stamp_jump_s = 3600;  // of a frame's stamp, ahead of the scene's newest
+  double late_window_s = 0.2;      // for frames older than those of other sensors
   bool operator==(const ServerLimits&) const = default;
 };
 
@@ -58,6 +60,7 @@ struct ServerStatus : Versioned {
   bool draining = false;
   // Since the server started, whatever became of the scene.
   std::uint64_t frames_applied = 0, frames_refused = 0;
+  std::uint64_t frames_late = 0;  // of those applied
   std::uint64_t points_used = 0, points_not_finite = 0;
 
   std::uint64_t queued_frames = 0;

@@ -1,0 +1,21 @@
+// How many blocks the maps of a scene hold.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "absl/status/status.h"
+#include "clearway/scene/frame.h"
+#include "scene/given_object.h"
+#include "scene/surroundings.h"
+
+namespace clearway {
+
+// In all maps beside the static one.
+std::size_t BlocksOf(const SceneObjects& objects, const SceneObjects& dropped_lately,
+                     const Surroundings& around_objects);
+
+// RESOURCE_EXHAUSTED for more than FrameLimits::max_blocks; `field` names what would make them.
+absl::Status CheckBlocks(const std::string& field, std::size_t blocks, const FrameLimits& limits);
+
+}  // namespace clearway
