@@ -74,7 +74,7 @@ OctomapCost Octomap(const Input& input, const std::vector<octomap::Pointcloud>& 
 SceneParams ParamsFor(const Input& input, bool discretize) {
   SceneParams params;
   params.resolution_m = params.object_resolution_m = input.resolution_m;
-  params.rays = {.max_range_m = input.range_m, .discretize = discretize};
+  params.rays = {.max_range_m = input.range_m, .discretize = discretize, .octomap_ends = true};
   return params;
 }
 

@@ -45,7 +45,7 @@ Robots::Robots(const ServerLimits& limits, double resolution_m, std::size_t max_
       max_triangles_(max_triangles),
       voxel_m3_(std::pow(resolution_m, 3)) {}
 
-absl::StatusOr<std::string> Robots::Register(Robot robot) {
+absl::StatusOr<Robots::Registered> Robots::Register(Robot robot) {
   if (absl::Status status = Validate(robot); !status.ok()) {
     return WithFieldPrefix("robot.", status);
   }
@@ -56,11 +56,12 @@ absl::StatusOr<std::string> Robots::Register(Robot robot) {
                      " voxels; the limit is ", max_voxels_));
   }
   const std::string id = RobotId(robot);
-  if (Find(id).ok()) return id;
+  if (const auto known = Find(id); known.ok()) return Registered{id, (*known)->notes()};
   // Prepared without the lock, as it may take long; two calls may both do it, which is harmless.
   const std::size_t triangles = TrianglesOf(robot);
   std::list<KnownRobot> entry;
   entry.push_back({id, triangles, std::make_shared<const PreparedRobot>(std::move(robot))});
+  Registered registered{id, entry.front().robot->notes()};
   std::list<KnownRobot> dropped;  // freed after the lock
   std::lock_guard lock(mutex_);
   const auto known = std::find_if(robots_.begin(), robots_.end(),
@@ -68,7 +69,7 @@ absl::StatusOr<std::string> Robots::Register(Robot robot) {
   if (known != robots_.end()) dropped.splice(dropped.begin(), robots_, known);
   robots_.splice(robots_.begin(), entry);
   Forget(dropped);
-  return id;
+  return registered;
 }
 
 // Moves those used longest ago to `dropped` as long as there are too many, or of too many

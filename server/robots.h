@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/collision/scene_checker.h"
@@ -22,9 +23,13 @@ class Robots {
   // For scenes of the resolution.
   Robots(const ServerLimits& limits, double resolution_m, std::size_t max_triangles = 2'000'000);
 
+  struct Registered {
+    std::string id;
+    std::vector<std::string> notes;  // on its meshes, of PreparedRobot
+  };
   // INVALID_ARGUMENT for what Validate(robot) refuses, RESOURCE_EXHAUSTED for a robot of more than
   // max_voxels_per_robot: what one state costs grows with them.
-  absl::StatusOr<std::string> Register(Robot robot);
+  absl::StatusOr<Registered> Register(Robot robot);
   // NOT_FOUND for a robot that is not, or no longer, known.
   absl::StatusOr<std::shared_ptr<const PreparedRobot>> Find(const std::string& id);
   // The robot's checker on the scene; NOT_FOUND as Find.

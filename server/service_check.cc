@@ -14,9 +14,10 @@ grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext*,
     if (!request->has_robot()) return FieldError("robot", "is missing");
     absl::StatusOr<Robot> robot = ReadRobot("robot", request->robot(), core_.config.limits);
     if (!robot.ok()) return robot.status();
-    absl::StatusOr<std::string> id = core_.robots.Register(*std::move(robot));
-    if (!id.ok()) return id.status();
-    response->set_robot_id(*id);
+    absl::StatusOr<Robots::Registered> registered = core_.robots.Register(*std::move(robot));
+    if (!registered.ok()) return registered.status();
+    response->set_robot_id(registered->id);
+    for (const std::string& note : registered->notes) response->add_notes(note);
     Write(VersionOf(*core_.versions.Newest()), response->mutable_scene());
     return absl::OkStatus();
   });

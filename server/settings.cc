@@ -200,6 +200,8 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.grazing_m", scene.rays.grazing_m,
                        "metres before its end in which a ray spares what it grazes",
                        (Range{0, 100})),
+      CLEARWAY_SETTING("scene.octomap_ends", scene.rays.octomap_ends,
+                       "rays without a hit leave the voxel of their end as it is, as in OctoMap"),
       CLEARWAY_SETTING("scene.solid", scene.solid,
                        "what an object fills: convex_hull, completed_hull or voxels"),
       CLEARWAY_SETTING("scene.clear_objects_by_rays", scene.clear_objects_by_rays,

@@ -61,6 +61,7 @@ Json ParamsJson(const SceneParams& p) {
           {"occupied_probability", p.occupancy.occupied},
           {"max_range_m", p.rays.max_range_m},
           {"discretize", p.rays.discretize},
+          {"octomap_ends", p.rays.octomap_ends},
           {"grazing_m", p.rays.grazing_m},
           {"solid",
            absl::AsciiStrToUpper(std::string(kSolidModeNames[static_cast<std::size_t>(p.solid)]))},

@@ -19,8 +19,12 @@ RobotGeometry::RobotGeometry(const Robot& robot) {
   }
 }
 
-PreparedRobot::PreparedRobot(Robot robot)
-    : robot_(std::move(robot)), geometry_(std::make_unique<const RobotGeometry>(robot_)) {}
+PreparedRobot::PreparedRobot(Robot robot) : PreparedRobot(robot, WithSolidMeshes(robot)) {}
+
+PreparedRobot::PreparedRobot(Robot robot, SolidRobot solid)
+    : robot_(std::move(robot)),
+      notes_(std::move(solid.notes)),
+      geometry_(std::make_unique<const RobotGeometry>(solid.robot)) {}
 
 PreparedRobot::~PreparedRobot() = default;
 

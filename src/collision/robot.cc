@@ -1,8 +1,11 @@
 #include "clearway/collision/robot.h"
 
 #include <initializer_list>
+#include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/geometry/solid_mesh.h"
 #include "clearway/scene/frame.h"
 
 namespace clearway {
@@ -50,6 +53,22 @@ absl::Status Validate(const Robot& robot) {
     }
   }
   return absl::OkStatus();
+}
+
+SolidRobot WithSolidMeshes(Robot robot) {
+  SolidRobot solid{std::move(robot), {}};
+  for (std::size_t l = 0; l < solid.robot.links.size(); ++l) {
+    std::vector<LinkShape>& shapes = solid.robot.links[l].shapes;
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      auto* const mesh = std::get_if<TriangleMesh>(&shapes[s].shape);
+      if (mesh == nullptr) continue;
+      auto [solid_mesh, note] = SolidMeshOf(mesh->mesh);
+      mesh->mesh = std::move(solid_mesh);
+      if (note.empty()) continue;
+      solid.notes.push_back(absl::StrCat("links[", l, "].shapes[", s, "].mesh: ", note));
+    }
+  }
+  return solid;
 }
 
 }  // namespace clearway

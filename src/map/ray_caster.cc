@@ -69,6 +69,7 @@ struct RayCaster::Impl {
   // False, and nothing is marked, if it would be too much.
   bool MarkFree(const VoxelGrid& grid, ScanUpdate& update);
   void MarkEnds(const RayCloud& cloud, ScanUpdate& update);
+  void MarkFreeEnds(const VoxelGrid& grid, const RayCloud& cloud, ScanUpdate& update) const;
 };
 
 bool RayCaster::Impl::MarkFree(const VoxelGrid& grid, ScanUpdate& update) {
@@ -100,6 +101,19 @@ void RayCaster::Impl::MarkEnds(const RayCloud& cloud, ScanUpdate& update) {
   }
 }
 
+// Walks do not mark the voxel that a ray ends in. A ray without a hit clears it, but not if the
+// point beyond the maximum range lies in it. What ends there in the same scan beats that.
+void RayCaster::Impl::MarkFreeEnds(const VoxelGrid& grid, const RayCloud& cloud,
+                                   ScanUpdate& update) const {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool no_return = cloud.kinds[i] == RayEnd::kClear;
+    if (!no_return && rays.within_range[i]) continue;
+    const VoxelKey end =
+        rays.within_range[i] ? rays.keys[i] : grid.KeyOf(rays.ends[i].cast<double>());
+    if (no_return || end != rays.keys[i]) update.MarkFree(end);
+  }
+}
+
 std::optional<ScanUpdate> RayCaster::Impl::Cast(const VoxelGrid& grid, const RayCloud& cloud,
                                                 const RayOptions& options) {
   Prepare(grid, cloud, options, pool, rays);
@@ -110,6 +124,7 @@ std::optional<ScanUpdate> RayCaster::Impl::Cast(const VoxelGrid& grid, const Ray
   });
   ScanUpdate update;
   if (!MarkFree(grid, update)) return std::nullopt;
+  if (!options.octomap_ends) MarkFreeEnds(grid, cloud, update);
   MarkEnds(cloud, update);
   if (update.keys().size() > kMaxScanBlocks) return std::nullopt;  // with those of ends
   return update;

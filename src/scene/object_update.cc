@@ -63,7 +63,9 @@ ScanUpdate MissesOf(const MovingObject& object, const LabelledCloud& cloud,
   const ClippedRays rays = RaysWithin(box_O, object.history.back().T_W_O, cloud, params);
   // Rays that are too many clear nothing: only an object of some kilometres has them.
   const ScanUpdate cast =
-      RayCaster(pool).Cast(object.map_O.grid(), rays.Cloud(), {}).value_or(ScanUpdate());
+      RayCaster(pool)
+          .Cast(object.map_O.grid(), rays.Cloud(), {.octomap_ends = params.rays.octomap_ends})
+          .value_or(ScanUpdate());
   ScanUpdate misses;
   for (std::size_t i = 0; i < cast.keys().size(); ++i) {
     const VoxelBlock* known = object.map_O.blocks().Find(cast.keys()[i]);

@@ -104,6 +104,7 @@ void ContentHasher::Add(const SceneParams& params) {
   Add(params.rays.max_range_m);
   Add(std::int64_t{params.rays.discretize});
   Add(params.rays.grazing_m);
+  Add(std::int64_t{params.rays.octomap_ends});
   Add(static_cast<std::int64_t>(params.solid));
   Add(std::int64_t{params.clear_objects_by_rays});
   for (Duration duration : {params.horizon, params.object_lifetime, params.history,

@@ -58,7 +58,9 @@ void Add(const LabelledCloud& cloud, const Aabb& box_O, const Pose& T_W_O,
          const SceneParams& params, ThreadPool& pool, VoxelMap& around_O) {
   ClippedRays rays = RaysWithin(box_O, T_W_O, cloud, params);
   std::ranges::replace(rays.kinds, RayEnd::kBlock, RayEnd::kHit);
-  const auto update = RayCaster(pool).Cast(around_O.grid(), rays.Cloud(), {});
+  // Of the voxels at the box's border rays may have seen a sliver.
+  const RayOptions options{.octomap_ends = true};
+  const auto update = RayCaster(pool).Cast(around_O.grid(), rays.Cloud(), options);
   if (update) around_O.Update(*update, pool);
 }
 

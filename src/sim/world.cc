@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <variant>
 
 #include "clearway/geometry/distance.h"
+#include "clearway/geometry/solid_mesh.h"
 #include "sim/convex.h"
 
 namespace clearway {
@@ -32,6 +35,19 @@ double SurfaceDistance(const Eigen::Vector3d& p_B, const Body& body) {
     }
   }
   return inside_m >= 0 ? inside_m : outside_m;
+}
+
+World::World(std::vector<Body> bodies) {
+  for (Body& body : bodies) Add(std::move(body));
+}
+
+void World::Add(Body body) {
+  for (BodyPart& part : body.parts) {
+    if (auto* mesh = std::get_if<TriangleMesh>(&part.shape)) {
+      mesh->mesh = SolidMeshOf(mesh->mesh).mesh;
+    }
+  }
+  bodies_.push_back(std::move(body));
 }
 
 std::vector<ObjectId> World::ObjectIds() const {

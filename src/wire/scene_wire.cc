@@ -94,6 +94,7 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_max_range_m(params.rays.max_range_m);
   proto->set_discretize(params.rays.discretize);
   proto->set_grazing_m(params.rays.grazing_m);
+  proto->set_octomap_ends(params.rays.octomap_ends);
   proto->set_solid(ToProto(params.solid));
   proto->set_clear_objects_by_rays(params.clear_objects_by_rays);
   proto->set_motion(params.motion == MotionModel::kTrack ? v1::MOTION_MODEL_TRACK
@@ -124,7 +125,8 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.object_resolution_m = proto.object_resolution_m();
   params.occupancy = {proto.probability_hit(), proto.probability_miss(), proto.clamp_min(),
                       proto.clamp_max(), proto.occupied_threshold()};
-  params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m()};
+  params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m(),
+                 proto.octomap_ends()};
   params.solid = ReadSolidMode(proto.solid(), read);
   params.clear_objects_by_rays = proto.clear_objects_by_rays();
   read.Require(v1::MotionModel_IsValid(proto.motion()), "motion", "is not a known model");

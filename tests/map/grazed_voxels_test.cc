@@ -73,7 +73,7 @@ TEST_F(GrazedGround, IsSparedIfAskedFor) {
 }
 
 TEST_F(GrazedGround, IsMissedWhereNothingReturns) {
-  EXPECT_EQ(OnGround(Missed(RayEnd::kClear, {.grazing_m = 4})), 7);
+  EXPECT_EQ(OnGround(Missed(RayEnd::kClear, {.grazing_m = 4, .octomap_ends = true})), 7);
   EXPECT_EQ(Missed(RayEnd::kHit, {.max_range_m = 19.85, .grazing_m = 4}),
             Missed(RayEnd::kHit, {.max_range_m = 19.85}));
 }

@@ -44,7 +44,8 @@ TEST_P(OctomapEqualityTest, SameVoxelsOverManyScans) {
         scan == 0 ? Eigen::Vector3f::Zero() : random.Vector(2).cast<float>().eval();
     const auto points = RandomCloud(random, 1500);
     const std::vector<RayEnd> kinds(points.size(), RayEnd::kHit);
-    const RayOptions options{c.max_range_m, c.discretize};
+    const RayOptions options{
+        .max_range_m = c.max_range_m, .discretize = c.discretize, .octomap_ends = true};
     dut.Update(caster.Cast(dut.grid(), {points, kinds, {&origin, 1}}, options).value(), pool);
     oracle.insertPointCloud(testing_support::ToOctomap(points), testing_support::ToOctomap(origin),
                             c.max_range_m, false, c.discretize);

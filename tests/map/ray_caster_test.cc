@@ -30,10 +30,15 @@ void ExpectWalkOfEach(const std::vector<Eigen::Vector3f>& origins,
     WalkRay(grid, origins.size() == 1 ? origins[0] : origins[i], ends[i],
             [&](VoxelKey key) { expected.insert(key); });
   }
+  std::set<VoxelKey> with_ends = expected;
+  for (const Eigen::Vector3f& end : ends) with_ends.insert(grid.KeyOf(end.cast<double>()));
   const std::vector<RayEnd> kinds(ends.size(), RayEnd::kClear);
   for (const int threads : {1, 3}) {
     ThreadPool pool(threads);
-    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, {ends, kinds, origins}, {}).value()), expected);
+    const RayCloud cloud{ends, kinds, origins};
+    const RayOptions octomap{.octomap_ends = true};
+    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, cloud, octomap).value()), expected);
+    EXPECT_EQ(FreeIn(RayCaster(pool).Cast(grid, cloud, {}).value()), with_ends);
   }
 }
 

@@ -58,9 +58,19 @@ TEST(CastRays, EmptyCloud) { EXPECT_TRUE(Cast({}, {}, {}).free.empty()); }
 
 TEST(CastRays, BeyondTheRangeClearsUpToItAndHitsNothing) {
   const Marks marks = Cast({{10.5f, 0.5f, 0.5f}}, {RayEnd::kHit}, {3.0, false});
-  EXPECT_EQ(marks.free, (std::set<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  EXPECT_EQ(marks.free, (std::set<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
   EXPECT_TRUE(marks.hit.empty());
   EXPECT_TRUE(marks.end.empty());
+  const RayOptions octomap{.max_range_m = 3, .octomap_ends = true};
+  EXPECT_EQ(Cast({{10.5f, 0.5f, 0.5f}}, {RayEnd::kHit}, octomap).free,
+            (std::set<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+}
+
+// The point beyond the range may be in the voxel that the cut ray ends in.
+TEST(CastRays, BeyondTheRangeDoesNotClearTheVoxelOfItsPoint) {
+  const Marks marks = Cast({{3.9f, 0.5f, 0.5f}}, {RayEnd::kHit}, {3.0, false});
+  EXPECT_EQ(marks.free, (std::set<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  EXPECT_TRUE(marks.hit.empty());
 }
 
 TEST(CastRays, ABlockedRayEndsWithoutAHit) {
@@ -69,8 +79,8 @@ TEST(CastRays, ABlockedRayEndsWithoutAHit) {
   EXPECT_EQ(marks.end, (std::set<VoxelKey>{{2, 0, 0}}));
 }
 
-TEST(CastRays, ANoReturnLeavesItsEndAlone) {
-  const Marks marks = Cast({{2.5f, 0.5f, 0.5f}}, {RayEnd::kClear}, {});
+TEST(CastRays, WithOctomapEndsANoReturnLeavesItsEndAlone) {
+  const Marks marks = Cast({{2.5f, 0.5f, 0.5f}}, {RayEnd::kClear}, {.octomap_ends = true});
   EXPECT_EQ(marks.free.size(), 2u);
   EXPECT_TRUE(marks.end.empty());
 }

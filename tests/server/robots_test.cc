@@ -16,9 +16,9 @@ Robot Heavy(const std::string& name, std::size_t triangles) {
 }
 
 std::string Registered(Robots& dut, Robot robot) {
-  const absl::StatusOr<std::string> id = dut.Register(std::move(robot));
-  EXPECT_TRUE(id.ok()) << id.status();
-  return id.value_or("");
+  const absl::StatusOr<Robots::Registered> known = dut.Register(std::move(robot));
+  EXPECT_TRUE(known.ok()) << known.status();
+  return known.ok() ? known->id : "";
 }
 
 TEST(RobotsTest, Empty) {

@@ -79,6 +79,7 @@ void ExpectSameStaticMap(const std::vector<Frame>& frames, double resolution_m,
   SceneParams params;
   params.resolution_m = resolution_m;
   params.rays = rays;
+  params.rays.octomap_ends = true;
   ThreadPool pool(2);
   SceneBuilder dut(params, {}, pool);
   OctomapStaticMap oracle(resolution_m, rays);

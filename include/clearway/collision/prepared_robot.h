@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "clearway/collision/robot.h"
 
@@ -10,7 +12,8 @@ namespace clearway {
 class RobotGeometry;
 
 // A robot and what its shapes need to be checked quickly: a grid of distances and trees of
-// triangles for each mesh and hull. Made once, handed to the SceneChecker of every scene version.
+// triangles for each mesh and hull. Meshes count as the solids that they enclose, whichever way their
+// faces are turned (see SolidMeshOf). Made once, handed to the SceneChecker of every scene version.
 // Immutable; any number of threads and checkers may share it.
 //
 // Making it takes a millisecond or two for each mesh or hull of a few triangles, 0.1 s for 1,000
@@ -25,12 +28,17 @@ class PreparedRobot {
   PreparedRobot(const PreparedRobot&) = delete;
   PreparedRobot& operator=(const PreparedRobot&) = delete;
 
-  const Robot& robot() const { return robot_; }
+  const Robot& robot() const { return robot_; }  // as it was given
+  // What was changed in its meshes, for people (see SolidRobot).
+  const std::vector<std::string>& notes() const { return notes_; }
   // For this library's own use.
   const RobotGeometry& geometry() const { return *geometry_; }
 
  private:
+  PreparedRobot(Robot robot, SolidRobot solid);
+
   Robot robot_;
+  std::vector<std::string> notes_;
   std::unique_ptr<const RobotGeometry> geometry_;
 };
 

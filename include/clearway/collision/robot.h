@@ -35,6 +35,15 @@ struct Robot {
 // volume, are not convex or face inward, poses that are not rigid.
 absl::Status Validate(const Robot& robot);
 
+// A robot whose meshes are the solids that they enclose (see SolidMeshOf), and a note on each mesh that
+// had to be changed or is open: "links[0].shapes[1].mesh: 6 of 12 faces turned".
+struct SolidRobot {
+  Robot robot;
+  std::vector<std::string> notes;
+};
+// The robot must pass Validate.
+SolidRobot WithSolidMeshes(Robot robot);
+
 // The hash of the robot's content (names too) in 32 hex digits (XXH3-128), by which a server knows
 // it: equal robots have equal ids on every machine.
 std::string RobotId(const Robot& robot);

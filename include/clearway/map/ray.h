@@ -23,6 +23,11 @@ struct RayOptions {
   // layer, and the ray meets it head on. With one origin, of rays in a row that end in one voxel
   // the first alone is looked at. Metres; 0: it counts as traversed, as in OctoMap.
   double grazing_m = 0;
+  // A ray that is cut at the maximum range, or has no return, clears the voxel that its end lies in
+  // too; a cut ray only if its point lies in another voxel. Without that, a hit near the maximum
+  // range sets voxels that no later ray on the same line clears. True: such rays leave the voxel of
+  // their end as it is, as in OctoMap.
+  bool octomap_ends = false;
   bool operator==(const RayOptions&) const = default;
 };
 
@@ -30,7 +35,7 @@ struct RayOptions {
 enum class RayEnd : std::uint8_t {
   kHit,    // raises the voxel that it ends in
   kBlock,  // ends on something that this map does not hold: neither hit nor miss
-  kClear,  // no return: clears up to the end point, which is itself left as it is
+  kClear,  // no return: clears up to the end point (see RayOptions::octomap_ends)
 };
 
 // A cloud of rays in the frame of the grid. Arrays are parallel.

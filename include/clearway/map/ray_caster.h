@@ -26,8 +26,8 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
 
-  // The update of a map by a cloud: the same voxels as OctoMap's computeUpdate makes of it,
-  // whatever the number of threads; grazing_m is not looked at. All points must be addressable in
+  // The update of a map by a cloud, whatever the number of threads: with RayOptions::octomap_ends
+  // the voxels that OctoMap's computeUpdate makes of it; grazing_m is not looked at. All points must be addressable in
   // the grid. None if the rays pass through or end in more than kMaxScanBlocks
   // blocks.
   std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud,

@@ -43,9 +43,10 @@ double SurfaceDistance(const Eigen::Vector3d& p_B, const Body& body);
 class World {
  public:
   World() = default;
-  explicit World(std::vector<Body> bodies) : bodies_(std::move(bodies)) {}
+  explicit World(std::vector<Body> bodies);
 
-  void Add(Body body) { bodies_.push_back(std::move(body)); }
+  // Meshes count as the solids that they enclose (see SolidMeshOf).
+  void Add(Body body);
   std::span<const Body> bodies() const { return bodies_; }
 
   // The ids above 0, ascending.
