@@ -71,7 +71,7 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
     const auto frame = source.read(i);
     if (!frame.ok()) return frame.status();
     pace.WaitFor(frame->stamp);
-    tally.Sent(frame->points_S.size());
+    tally.Sent(*frame);
     if (const absl::Status status = sender.Send(teller.Tell(*frame)); !status.ok()) return status;
     if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
     progress.Update(tally.counts().answered, tally.counts().points);
@@ -88,6 +88,7 @@ Json AsJson(const AckTally::Counts& counts, double seconds) {
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
                {"elapsed_s", seconds}};
+  json["reports"] = counts.objects.AsJson();
   if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
   return json;
 }
@@ -105,6 +106,7 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
     out << Plural(counts.repeated, "frame")
         << " had been sent before and changed nothing ('clearway reset' starts over)\n";
   }
+  for (const std::string& line : counts.objects.Lines()) out << line << "\n";
 }
 
 // Not an error: coarser maps are often wanted.
