@@ -50,7 +50,7 @@ GateOffset OffsetFrom(const MovingObject& object, const Pose& T_W_O,
     const Interval points = SpreadOf(values);
     const Interval box{box_O.min[axis], box_O.max[axis]};
     const double off = OffsetOf(box, points);
-    if (std::abs(off) > voxel_m) off_O[axis] = off;
+    if (std::abs(off) > 2 * voxel_m) off_O[axis] = off;
     half_size[axis] = 0.5 * std::min(box.size(), std::max(points.size(), voxel_m));
   }
   const double off_m = off_O.norm();

@@ -17,8 +17,8 @@ struct GateOffset {
 };
 
 // The shortest translation of the object at T_W_O, along O's axes, after which its box holds the
-// points or, along an axis where they spread farther than it, they hold the box. Less than a voxel
-// counts as none. The outermost twentieth of many points on each side is left out: strays.
+// points or, along an axis where they spread farther than it, they hold the box. Less than two
+// voxels count as none. The outermost twentieth of many points on each side is left out: strays.
 GateOffset OffsetFrom(const MovingObject& object, const Pose& T_W_O,
                       std::span<const Eigen::Vector3d> points_W);
 
