@@ -27,6 +27,7 @@ ObjectInfo DescribeAlone(const MovingObject& object) {
   info.frames_seen = object.frames_seen;
   info.at_rest = object.AtRest();
   info.bridged = object.bridged;
+  info.pose_source = object.pose_source();
   info.given = object.given();
   if (!object.future.empty()) info.future_end = object.future.back().stamp;
   return info;

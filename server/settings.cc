@@ -58,6 +58,12 @@ absl::Status Parse(const std::string& text, MotionModel& value) {
   value = text == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
   return absl::OkStatus();
 }
+absl::Status Parse(const std::string& text, MotionFromPoints& value) {
+  const auto name = std::ranges::find(kMotionFromPointsNames, text);
+  if (name == kMotionFromPointsNames.end()) return Bad(text, "auto, on or off");
+  value = static_cast<MotionFromPoints>(name - kMotionFromPointsNames.begin());
+  return absl::OkStatus();
+}
 absl::Status Parse(const std::string& text, std::vector<Aabb>& boxes) {
   std::vector<double> numbers;
   for (const auto& part : absl::StrSplit(text, absl::ByAnyChar(" ,;[]"), absl::SkipEmpty())) {
@@ -99,6 +105,9 @@ std::string Print(SolidMode value) {
 }
 std::string Print(MotionModel value) {
   return Print(std::string(value == MotionModel::kTrack ? "track" : "last"));
+}
+std::string Print(MotionFromPoints value) {
+  return Print(std::string(kMotionFromPointsNames[static_cast<std::size_t>(value)]));
 }
 std::string Print(const Aabb& box) {
   std::vector<std::string> numbers;
@@ -208,6 +217,9 @@ std::vector<Setting> SceneSettings() {
                        "whether rays clear voxels of objects"),
       CLEARWAY_SETTING("scene.motion", scene.motion,
                        "last or track: extrapolate the last motion, or a fit of the track"),
+      CLEARWAY_SETTING("scene.motion_from_points", scene.motion_from_points,
+                       "auto, on or off: estimate the motion of objects that come without one "
+                       "from their points; auto: of those that never had one"),
       CLEARWAY_SETTING("scene.horizon_s", scene.horizon, "how long motions are extrapolated",
                        kUpToADay_s),
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,

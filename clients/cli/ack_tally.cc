@@ -4,9 +4,9 @@
 
 namespace clearway::cli {
 
-void AckTally::Sent(std::uint64_t points) {
+void AckTally::Sent(const Frame& frame) {
   const std::lock_guard lock(mutex_);
-  points_in_flight_.push_back(points);
+  in_flight_.push_back({frame.points_S.size(), frame.stamp});
 }
 
 FrameSender::OnAck AckTally::OnAck() {
@@ -14,11 +14,14 @@ FrameSender::OnAck AckTally::OnAck() {
                 const absl::StatusOr<PushAck>& answer) {
     const std::lock_guard lock(mutex_);
     ++counts_.answered;
-    if (!points_in_flight_.empty()) {
-      counts_.points += points_in_flight_.front();
-      points_in_flight_.pop_front();
+    InFlight sent{};
+    if (!in_flight_.empty()) {
+      sent = in_flight_.front();
+      in_flight_.pop_front();
     }
+    counts_.points += sent.points;
     if (answer.ok()) {
+      if (!answer->repeated_answer) counts_.objects.Add(answer->report, sent.stamp);
       counts_.repeated += answer->repeated_answer ? 1 : 0;
       const Duration late_by = answer->report.late_by;
       counts_.late += late_by > Duration::zero() ? 1 : 0;

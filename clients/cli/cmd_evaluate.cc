@@ -32,7 +32,8 @@ constexpr char kExamples[] =
 struct Flags {
   std::string spec;
   SourceFlags source;
-  std::string motion = "last", solid{kSolidModeNames[0]};
+  std::string motion = "last", solid{kSolidModeNames[0]},
+              motion_from_points{kMotionFromPointsNames[0]};
   double rest_distance_m = 0;
   std::optional<double> object_voxel_m;
   double max_range_m = 50;
@@ -65,6 +66,9 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
   params.rays.max_range_m = flags.max_range_m;
   params.rays.grazing_m = flags.grazing_m;
   params.motion = flags.motion == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
+  params.motion_from_points = static_cast<MotionFromPoints>(
+      std::ranges::find(kMotionFromPointsNames, flags.motion_from_points) -
+      kMotionFromPointsNames.begin());
   params.solid = static_cast<SolidMode>(std::ranges::find(kSolidModeNames, flags.solid) -
                                         kSolidModeNames.begin());
   params.rest_distance_m = flags.rest_distance_m;
@@ -182,6 +186,12 @@ void AddEvaluate(Cli& cli) {
       ->required();
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))
+      ->capture_default_str();
+  command
+      ->add_option("--motion-from-points", flags->motion_from_points,
+                   "As of clearway-server --scene-motion-from-points: auto,\non or off")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kMotionFromPointsNames.begin(), kMotionFromPointsNames.end())))
       ->capture_default_str();
   command->add_option("--solid", flags->solid, "As of clearway-server --scene-solid")
       ->check(

@@ -58,6 +58,20 @@ absl::Status AddPredictions(const SceneClient& client, Time time, ObjectRows& ro
   return absl::OkStatus();
 }
 
+const char* NameOf(PoseSource source) {
+  switch (source) {
+    case PoseSource::kReported:
+      return "REPORTED";
+    case PoseSource::kEstimated:
+      return "ESTIMATED";
+    case PoseSource::kBridged:
+      return "BRIDGED";
+    case PoseSource::kFirstSight:
+      break;
+  }
+  return "FIRST_SIGHT";
+}
+
 Json AsJson(const ObjectRow& row) {
   const ObjectInfo& o = row.info;
   Json json = {{"id", o.id},
@@ -69,6 +83,7 @@ Json AsJson(const ObjectRow& row) {
                {"speed_mps", o.speed_mps},
                {"at_rest", o.at_rest},
                {"bridged", o.bridged},
+               {"pose_source", NameOf(o.pose_source)},
                {"given", o.given},
                {"future_end_ns", nullptr},
                {"world_from_object", ToJson(o.T_W_O)},
@@ -108,6 +123,7 @@ std::string MotionOf(const ObjectInfo& o) {
   if (o.future_end) return "stated";
   if (o.bridged) return "bridged";
   if (!o.velocity_O) return "unknown";
+  if (o.pose_source == PoseSource::kEstimated) return o.at_rest ? "at rest (est.)" : "estimated";
   return o.at_rest ? "at rest" : "moving";
 }
 

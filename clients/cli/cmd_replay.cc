@@ -76,7 +76,7 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
     if (!frame.ok()) return frame.status();
     frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
     pace.WaitFor(frame->stamp);
-    tally.Sent(frame->points_S.size());
+    tally.Sent(*frame);
     if (const absl::Status status = sender.Send(teller.Tell(*frame)); !status.ok()) return status;
     if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
     progress.Update(tally.counts().answered, tally.counts().points);
@@ -111,6 +111,7 @@ Json AsJson(const AckTally::Counts& counts, std::uint64_t reconnects, double sec
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
                {"elapsed_s", seconds}};
+  json["reports"] = counts.objects.AsJson();
   if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
   return json;
 }
@@ -134,6 +135,7 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
     out << Plural(counts.repeated, "frame")
         << " had been sent before and changed nothing ('clearway reset' starts over)\n";
   }
+  for (const std::string& line : counts.objects.Lines()) out << line << "\n";
 }
 
 // Not an error: coarser maps are often wanted.

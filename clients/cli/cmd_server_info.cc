@@ -67,6 +67,9 @@ Json ParamsJson(const SceneParams& p) {
            absl::AsciiStrToUpper(std::string(kSolidModeNames[static_cast<std::size_t>(p.solid)]))},
           {"clear_objects_by_rays", p.clear_objects_by_rays},
           {"motion", p.motion == MotionModel::kTrack ? "TRACK" : "LAST_MOTION"},
+          {"motion_from_points",
+           absl::AsciiStrToUpper(std::string(
+               kMotionFromPointsNames[static_cast<std::size_t>(p.motion_from_points)]))},
           {"horizon_s", ToSeconds(p.horizon)},
           {"object_lifetime_s", ToSeconds(p.object_lifetime)},
           {"history_s", ToSeconds(p.history)},

@@ -18,6 +18,7 @@
 #include "clearway/report/unlabelled_score.h"
 #include "clearway/report/way_confusion.h"
 #include "clearway/scene/scene_builder.h"
+#include "cli/object_notes.h"
 #include "cli/truth_source.h"
 
 namespace clearway::cli {
@@ -48,6 +49,7 @@ struct Evaluation {
   std::map<ObjectId, std::vector<Eigen::Vector2d>> growth;
   ScenePtr scene;  // the last version
   PointCounts points;
+  ObjectNotes notes;                                               // of the frames' reports
   std::map<ObjectId, std::shared_ptr<const MovingObject>> newest;  // dropped ones too
   // Where the true surfaces are known, or recorded boxes stand for them.
   std::map<ObjectId, ObjectFit> fits;

@@ -186,6 +186,7 @@ void PrintUnlabelled(std::ostream& out, const Unlabelled& found) {
 void PrintText(std::ostream& out, const TrueSource& source, const Evaluation& found) {
   out << source.frames.description << ", against " << source.truth.description << "\n";
   PrintPoints(out, found.points);
+  for (const std::string& line : found.notes.Lines()) out << line << "\n";
   PrintPredictions(out, source, found);
   if (!found.sizes.empty()) PrintSizes(out, source, found);
   if (!found.fits.empty()) PrintFits(out, source, found);

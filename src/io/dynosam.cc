@@ -57,6 +57,32 @@ const RecordedPose* StartOf(const Logs& logs, int frame, ObjectId id, const Pose
   return is_first && IsIdentity(H_W) ? nullptr : PoseOf(logs.poses, frame - 1);
 }
 
+bool HasMotion(const std::vector<ObjectMotion>& motions, ObjectId id) {
+  return std::ranges::any_of(motions, [&](const ObjectMotion& motion) { return motion.id == id; });
+}
+
+// After a gap in an object's track: the motion from its last pose, where the log has none.
+void AddMotionsOverGaps(const Logs& logs, std::map<int, std::vector<ObjectMotion>>& motions) {
+  constexpr Duration kLongestGap = std::chrono::seconds(10);
+  struct Last {
+    int frame;
+    Time stamp;
+    Pose T_W_B;
+  };
+  std::map<ObjectId, Last> last;
+  for (const auto& [key, T_W_B] : logs.object_poses) {  // by ascending frames
+    const auto [frame, id] = key;
+    const RecordedPose* const camera = PoseOf(logs.poses, frame);
+    if (camera == nullptr) continue;
+    const auto before = last.find(id);
+    if (before != last.end() && before->second.frame < frame - 1 &&
+        !HasMotion(motions[frame], id) && camera->stamp - before->second.stamp <= kLongestGap) {
+      motions[frame].push_back({id, T_W_B * Inverse(before->second.T_W_B), before->second.stamp});
+    }
+    last[id] = {frame, camera->stamp, T_W_B};
+  }
+}
+
 std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, LeftOut& left_out) {
   std::map<int, std::vector<ObjectMotion>> motions;
   for (const auto& [key, H_W] : logs.object_motions) {
@@ -72,6 +98,7 @@ std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, LeftOut& le
       motions[frame].push_back({id, H_W, start->stamp});
     }
   }
+  AddMotionsOverGaps(logs, motions);
   return motions;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -34,19 +35,40 @@ const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) 
   return box != boxes.end() && box->id == id ? &*box : nullptr;
 }
 
-// Eq. (2) for every object with a box at the frame and at one that is the motion's begin.
-void AddMotions(const OpenScans& open, std::size_t index, Frame& frame) {
-  if (index == 0) return;
+// The frames of which one is the begin of an object's motion to the frame: that before it and, with
+// options.motions_over, those of that time.
+std::size_t FirstBegin(const OpenScans& open, std::size_t index) {
   const Time earliest = open.poses[index].stamp - open.scans.options.motions_over;
   std::size_t first = index - 1;
   while (first > 0 && open.poses[first - 1].stamp >= earliest) --first;
+  return first;
+}
+
+// The frame at which the object's motion to the frame begins: the first one from `first` on that
+// has a box of it, else, after a gap in its track, the last one before.
+std::optional<std::size_t> BeginOf(const OpenScans& open, std::size_t first, std::size_t index,
+                                   ObjectId id) {
+  constexpr Duration kLongestGap = std::chrono::seconds(10);
+  for (std::size_t from = first; from < index; ++from) {
+    if (BoxOf(open, from, id) != nullptr) return from;
+  }
+  const Time earliest = open.poses[index].stamp - kLongestGap;
+  for (std::size_t from = first; from-- > 0 && open.poses[from].stamp >= earliest;) {
+    if (BoxOf(open, from, id) != nullptr) return from;
+  }
+  return std::nullopt;
+}
+
+// Eq. (2) for every object with a box at the frame and at one before. A box that has turned by
+// about pi since then gives a motion of that turn: the scene leaves it out, and names it.
+void AddMotions(const OpenScans& open, std::size_t index, Frame& frame) {
+  if (index == 0) return;
+  const std::size_t first = FirstBegin(open, index);
   for (const RecordedBox& box : BoxesOf(open, open.poses[index].frame)) {
-    for (std::size_t from = first; from < index; ++from) {
-      const RecordedBox* const then = BoxOf(open, from, box.id);
-      if (then == nullptr) continue;
-      frame.motions.push_back({box.id, box.T_W_B * Inverse(then->T_W_B), open.poses[from].stamp});
-      break;
-    }
+    const std::optional<std::size_t> from = BeginOf(open, first, index, box.id);
+    if (!from) continue;
+    const Pose H_W = box.T_W_B * Inverse(BoxOf(open, *from, box.id)->T_W_B);
+    frame.motions.push_back({box.id, H_W, open.poses[*from].stamp});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "clearway/scene/frame.h"
 
 #include <cmath>
+#include <limits>
 
 #include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
@@ -87,17 +88,11 @@ absl::Status CheckId(const std::string& field, ObjectId id, absl::flat_hash_set<
   return absl::OkStatus();
 }
 
-absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, const Frame& frame,
-                         const FrameLimits& limits) {
-  const std::string motion_field = absl::StrCat(field, ".world_motion");
-  // A world motion far from the origin may carry a large translation: twice the coordinate limit.
-  if (auto status = ValidatePose(motion_field, motion.H_W, 2 * limits.max_coordinate_m);
+absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, const Frame& frame) {
+  constexpr double kAnyFinite_m = std::numeric_limits<double>::max();
+  if (auto status = ValidatePose(absl::StrCat(field, ".world_motion"), motion.H_W, kAnyFinite_m);
       !status.ok()) {
     return status;
-  }
-  if (const double turn = Log(motion.H_W).angular.norm(); turn > kMaxTurn_rad) {
-    return Invalid(motion_field, absl::StrCat("turns by ", turn, " rad in one step; the limit is ",
-                                              kMaxTurn_rad, " rad (its direction is ambiguous)"));
   }
   const std::string from_field = absl::StrCat(field, ".from_stamp_ns");
   if (auto status = ValidateStamp(from_field, motion.from); !status.ok()) return status;
@@ -152,7 +147,7 @@ absl::Status Validate(const Frame& frame, const FrameLimits& limits) {
         !status.ok()) {
       return status;
     }
-    if (auto status = CheckMotion(field, frame.motions[i], frame, limits); !status.ok()) {
+    if (auto status = CheckMotion(field, frame.motions[i], frame); !status.ok()) {
       return status;
     }
   }

@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "scene/dropped_object.h"
+#include "scene/implausible_motions.h"
 #include "scene/late_frame.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
+#include "scene/point_placement.h"
+#include "scene/report_issue.h"
 
 namespace clearway {
 namespace {
@@ -39,16 +42,25 @@ std::map<ObjectId, Sighting> SightingsOf(const SceneObjects& objects, const Clue
   return sightings;
 }
 
-// Whether the object is still the same one in this frame: given, or not unseen for too long, and if
-// it is seen again, then where its frame is known.
-bool Continues(const MovingObject& object, const Sighting& sighting, const ClueMap& clues,
-               Time stamp, const SceneParams& params) {
-  if (object.given() || IsNewerThan(object, stamp)) return true;
-  if (stamp - sighting.last_seen > params.object_lifetime) return false;
+// What becomes of an object in a frame.
+struct Continuation {
+  bool goes_on = true;  // it is still the same one
+  std::optional<ObjectIssue> issue = {};
+};
+
+// Given ones go on, and those that are not unseen for too long and, if they are seen again, are
+// where they are known to be. Points alone may tell that.
+Continuation ContinuationOf(const MovingObject& object, const Sighting& sighting,
+                            const LabelledCloud& cloud, Time stamp, const SceneParams& params,
+                            const FrameLimits& limits, ClueMap& clues) {
+  if (object.given() || IsNewerThan(object, stamp)) return {};
+  if (stamp - sighting.last_seen > params.object_lifetime) return {false};
   const auto clue = clues.find(object.id);
-  if (clue == clues.end() || clue->second.points.empty()) return true;
+  if (clue == clues.end() || clue->second.points.empty()) return {};
   const bool goes_along = sighting.placed && !clue->second.Places();
-  return goes_along || !OutOfReach(object, clue->second, stamp, params);
+  if (goes_along) return {};
+  auto issue = PlaceByPoints(object, cloud, stamp, params, limits, clue->second);
+  return {!issue && !OutOfReach(object, clue->second, stamp, params), issue};
 }
 
 // The object after the frame; none for a clue without points to an object of which the place is not
@@ -75,15 +87,22 @@ ClueMap CluesOf(const Frame& frame, const LabelledCloud& cloud) {
   return clues;
 }
 
-ObjectMap Continuing(const SceneObjects& objects, Time stamp, const SceneParams& params,
-                     ClueMap& clues, VoxelMap& static_map_W, FrameReport& report) {
+ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
+                     const SceneParams& params, const FrameLimits& limits, ClueMap& clues,
+                     VoxelMap& static_map_W, FrameReport& report) {
   const SceneObjects named = WithoutLapsedIds(objects, clues, stamp, params);
-  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues);
+  LeaveOutImplausible(named, stamp, params, limits, clues, report);
+  const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues, report);
   const std::map<ObjectId, Sighting> sightings = SightingsOf(named, clues, stamp, params);
   ObjectMap continuing;
   for (const auto& object : named) {
-    if (Continues(*object, sightings.at(object->id), clues, stamp, params) &&
-        !two_after_all.contains(object->id)) {
+    Continuation continuation{false};
+    if (!two_after_all.contains(object->id)) {
+      continuation =
+          ContinuationOf(*object, sightings.at(object->id), cloud, stamp, params, limits, clues);
+    }
+    if (continuation.issue) AddIssue(*continuation.issue, report);
+    if (continuation.goes_on) {
       continuing[object->id] = object;
     } else {
       ForgetFreeSpaceOf(*object, static_map_W);
@@ -110,6 +129,9 @@ void UpdateObjects(const Frame& frame, const LabelledCloud& cloud, ClueMap clues
                 frame.stamp, params, pool);
     report.motions_ignored += !object.has_value();
     report.objects_created += object.has_value() && known == objects.end();
+    report.objects_estimated += clue.T_W_O_estimated.has_value();
+    const bool seen_now = object.has_value() && !clue.points.empty();
+    report.objects_bridged += seen_now && !clue.Places() && object->bridged;
     if (object) objects[id] = std::make_shared<const MovingObject>(std::move(*object));
   };
   SetParts(frame.parts, objects);

@@ -171,7 +171,8 @@ absl::Status AddGiven(const GivenObject& given, const SceneParams& params,
   if (object.solid->hull->triangles.empty()) return Invalid("shape", "has no volume");
   object.history = {Normalized(given.pose)};
   object.velocity_O = given.velocity_O.value_or(Twist{});
-  object.first_seen = object.last_seen = given.pose.stamp;
+  object.first_seen = object.last_seen = object.placed_at = given.pose.stamp;
+  object.reported = true;
   objects.insert(PlaceOf(given.id, objects), std::make_shared<const MovingObject>(WithFuture(
                                                  std::move(object), Normalized(given.future))));
   return absl::OkStatus();

@@ -63,7 +63,7 @@ MovingObject GoingAlong(MovingObject part, const MovingObject& leader, const Sce
     prospect.bound = BoundBy(misses_along, part.history.size() > 1, prospect.velocity_O, false);
   }
   part.velocity_O = prospect.velocity_O;
-  part.bound = prospect.bound;
+  part.bound = Saturated(prospect.bound);
   return WithFutureOf(std::move(part), leader, T_O_P);
 }
 

@@ -24,8 +24,9 @@ MovingObject WithLatePoints(const MovingObject& object, const LabelledCloud& clo
   std::erase_if(then.history, [&](const StampedPose& pose) { return pose.stamp >= stamp; });
   then.history.push_back({stamp, PoseBefore(object, clue, stamp, params)});
   AddPoints(then, cloud, clue.points, stamp, params, pool);
-  NoteId(then, clue.told_as, stamp);
+  NoteIds(then, clue.named_as, stamp);
   then.history = object.history;
+  then.last_view = object.last_view;
   then.last_seen = std::max(then.last_seen, object.last_seen);
   return then;
 }

@@ -37,6 +37,11 @@ std::vector<ObjectId> MovingObject::Ids() const {
   return ids;
 }
 
+PositionBound Saturated(const PositionBound& bound) {
+  return {std::min(bound.at_m, kMaxBoundTerm), std::min(bound.speed_mps, kMaxBoundTerm),
+          std::min(bound.accel_mps2, kMaxBoundTerm)};
+}
+
 Twist VelocityBetween(const StampedPose& before, const StampedPose& after) {
   Twist step = Log(Inverse(before.T_W_O) * after.T_W_O);
   if (IsRounding(step)) return {};

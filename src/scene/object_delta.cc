@@ -32,13 +32,11 @@ absl::Status CheckPoses(const std::string& field, const std::vector<StampedPose>
   return absl::OkStatus();
 }
 
-// So large that nothing is lost, and products of it and of times are still finite.
 absl::Status CheckBound(const std::string& field, const PositionBound& bound) {
-  constexpr double kLargest = 1e6;
   for (const double value : {bound.at_m, bound.speed_mps, bound.accel_mps2}) {
-    if (value >= 0 && value <= kLargest) continue;
+    if (value >= 0 && value <= kMaxBoundTerm) continue;
     return Malformed(
-        absl::StrCat(field, ".bound: ", value, " does not lie between 0 and ", kLargest));
+        absl::StrCat(field, ".bound: ", value, " does not lie between 0 and ", kMaxBoundTerm));
   }
   return absl::OkStatus();
 }
@@ -126,6 +124,9 @@ ObjectDelta DiffObjects(const MovingObject* from, const MovingObject& to, MapDet
   delta.velocity_O = to.velocity_O;
   delta.bound = to.bound;
   delta.tracked_since = to.tracked_since;
+  delta.placed_at = to.placed_at;
+  delta.estimated = to.estimated;
+  delta.reported = to.reported;
   delta.T_B_O = to.T_B_O;
   delta.first_seen = to.first_seen;
   delta.last_seen = to.last_seen;
@@ -169,6 +170,9 @@ absl::StatusOr<std::shared_ptr<const MovingObject>> ApplyObject(const MovingObje
   object.velocity_O = delta.velocity_O;
   object.bound = delta.bound;
   object.tracked_since = delta.tracked_since;
+  object.placed_at = delta.placed_at;
+  object.estimated = delta.estimated;
+  object.reported = delta.reported;
   object.T_B_O = delta.T_B_O;
   object.first_seen = delta.first_seen;
   object.last_seen = delta.last_seen;

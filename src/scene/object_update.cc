@@ -6,6 +6,7 @@
 #include "clearway/map/ray_caster.h"
 #include "scene/completion.h"
 #include "scene/mended_pose.h"
+#include "scene/motion_from_points.h"
 #include "scene/position_bound.h"
 #include "scene/prospect.h"
 #include "scene/rays_near.h"
@@ -42,11 +43,12 @@ const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
 void SetMotion(MovingObject& object, bool after_gap, const SceneParams& params) {
   if (object.bridged || after_gap) object.tracked_since = object.t_k();
   object.bridged = false;
+  object.placed_at = object.t_k();
   const auto [velocity_O, bound] =
       ProspectOf(object.history, object.tracked_since, object.velocity_O.value_or(Twist{}),
                  *object.solid, params);
   if (object.velocity_O) object.velocity_O = velocity_O;
-  object.bound = bound;
+  object.bound = Saturated(bound);
 }
 
 // Of an object of which no motion is known.
@@ -84,6 +86,50 @@ Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W, double voxel_m) {
   return voxel_m * ((p_W / voxel_m).array().round() + 0.25);
 }
 
+// To where its points put it. Their noise is that of registration: a track evens it out.
+void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingObject& object) {
+  if (const StampedPose* before = LastBefore(object, stamp)) {
+    object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
+  }
+  Remember(object, {stamp, T_W_O}, params.history);
+  SceneParams of_track = params;
+  of_track.motion = MotionModel::kTrack;
+  SetMotion(object, false, of_track);
+  object.estimated = true;
+}
+
+// To where it is predicted, but for what its points say against that.
+void Bridge(const Eigen::Vector3d& off_W, Time stamp, const SceneParams& params,
+            MovingObject& object) {
+  // Up to its future's end its poses are stated; beyond it, it goes on as it did there.
+  const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
+  if (outlived) object.velocity_O = object.LastVelocity();
+  if (!object.future.empty()) object.placed_at = std::min(stamp, object.future.back().stamp);
+  if (object.velocity_O && (outlived || object.future.empty())) {
+    object.bound = Saturated(BoundAfter(object.bound, ToSeconds(stamp - object.LastPose().stamp)));
+    const PositionBound unknown = FirstBound(object, params);
+    const bool rests = *object.velocity_O == Twist{};
+    if (rests && unknown.At(1) < object.bound.At(1)) object.bound = unknown;
+  }
+  Pose T_W_O = PredictPose(object, stamp, params.horizon).T_W_O;
+  T_W_O.translation += off_W;
+  Remember(object, {stamp, T_W_O}, params.history);
+  object.bridged = true;
+}
+
+// What the motion of the next view can be told from.
+LastView ViewOf(const LabelledCloud& cloud, std::span<const std::uint32_t> points,
+                const Pose& T_O_W, Time stamp) {
+  LastView view;
+  view.stamp = stamp;
+  for (const std::uint32_t i : points) {
+    const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
+    view.centroid_O += p_O / static_cast<double>(points.size());
+    view.box_O.Extend(p_O);
+  }
+  return view;
+}
+
 }  // namespace
 
 MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
@@ -105,17 +151,18 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
         VelocityBetween({clue.motion->from, Inverse(clue.motion->H_W) * T_W_O}, {stamp, T_W_O});
   }
   if (clue.pose != nullptr) object.T_B_O = Inverse(clue.pose->T_W_B) * T_W_O;
-  object.tracked_since = stamp;
-  object.bound =
-      BoundOf(object.history, stamp, object.velocity_O.value_or(Twist{}), Solid{}, params);
+  object.tracked_since = object.placed_at = stamp;
+  object.reported = clue.Places();
+  object.bound = Saturated(
+      BoundOf(object.history, stamp, object.velocity_O.value_or(Twist{}), Solid{}, params));
   return object;
 }
 
-void NoteId(MovingObject& object, ObjectId told_as, Time stamp) {
+void NoteIds(MovingObject& object, const std::vector<ObjectId>& named_as, Time stamp) {
   const std::vector<ObjectId> ids = object.Ids();
   for (std::size_t i = 0; i < object.older_ids_told.size(); ++i) {
-    Time& told = object.older_ids_told[i];
-    if (ids[i] == told_as) told = std::max(told, stamp);
+    Time& last = object.older_ids_told[i];
+    if (std::ranges::find(named_as, ids[i]) != named_as.end()) last = std::max(last, stamp);
   }
 }
 
@@ -124,7 +171,8 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
   bool after_gap = false;
   if (clue.motion != nullptr) {
     after_gap = clue.motion->from - object.t_k() > kNoGap;
-    const Pose T_W_from = PredictPose(object, clue.motion->from, params.horizon).T_W_O;
+    Pose T_W_from = StartOf(*clue.motion, object, stamp, params);
+    T_W_from.translation += clue.off_W;
     const Pose T_W_T = CarriedOn(*clue.motion, T_W_from, object);  // eq. 2
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
@@ -140,22 +188,32 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
       object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
     }
     Remember(object, {stamp, T_W_O}, params.history);
+  } else if (clue.T_W_O_estimated) {
+    Estimate(*clue.T_W_O_estimated, stamp, params, object);
   } else if (!clue.points.empty() && object.t_k() < stamp) {
-    // Bridged to its future's end or beyond it, it goes on as it did there.
-    const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
-    if (outlived) object.velocity_O = object.LastVelocity();
-    if (object.velocity_O && (outlived || object.future.empty())) {
-      object.bound = BoundAfter(object.bound, ToSeconds(stamp - object.LastPose().stamp));
-      const PositionBound unknown = FirstBound(object, params);
-      const bool rests = *object.velocity_O == Twist{};
-      if (rests && unknown.At(1) < object.bound.At(1)) object.bound = unknown;
-    }
-    Remember(object, {stamp, PredictPose(object, stamp, params.horizon).T_W_O}, params.history);
-    object.bridged = true;
+    Bridge(clue.off_W, stamp, params, object);
   }
-  if (clue.motion != nullptr || clue.pose != nullptr) SetMotion(object, after_gap, params);
-  NoteId(object, clue.told_as, stamp);
+  if (clue.Places()) {
+    SetMotion(object, after_gap, params);
+    object.estimated = false;
+    object.reported = true;
+  }
+  NoteIds(object, clue.named_as, stamp);
   return object;
+}
+
+Pose StartOf(const ObjectMotion& motion, const MovingObject& object, Time stamp,
+             const SceneParams& params) {
+  if (object.given() || motion.from >= object.first_seen - kNoGap || object.t_k() >= stamp) {
+    return PredictPose(object, motion.from, params.horizon).T_W_O;
+  }
+  const StampedPose& first = object.history.front();
+  const double share = ToSeconds(stamp - first.stamp) / ToSeconds(stamp - motion.from);
+  return Inverse(motion.H_W) * Exp(share * Log(motion.H_W)) * first.T_W_O;
+}
+
+bool StartsAtAPose(const ObjectMotion& motion, const MovingObject& object) {
+  return motion.from >= object.first_seen - kNoGap && motion.from <= object.t_k() + kNoGap;
 }
 
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
@@ -185,6 +243,7 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
     object.completion = CompletionOf(object, sensor_W.cast<double>());
   }
   object = WithMap(std::move(object), std::move(map_O));
+  if (MayBeEstimated(object, params)) object.last_view = ViewOf(cloud, points, T_O_W, stamp);
   object.last_seen = stamp;
   ++object.frames_seen;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "clearway/scene/moving_object.h"
 #include "scene/labelled_cloud.h"
@@ -16,7 +17,11 @@ struct ObjectClue {
   const ObjectMotion* motion = nullptr;
   const ObjectPose* pose = nullptr;
   std::span<const std::uint32_t> points;  // its hits, as indices into the cloud
-  ObjectId told_as = kStaticLabel;        // of an object of several ids: which of them it was
+  std::vector<ObjectId> named_as;         // of an object of several ids: by which of them
+  // What its points say where prediction alone places it, or what a motion starts from: its pose,
+  // as estimated, or by how much they are off.
+  std::optional<Pose> T_W_O_estimated;
+  Eigen::Vector3d off_W = Eigen::Vector3d::Zero();
 
   // Whether it says where the object is.
   bool Places() const { return motion != nullptr || pose != nullptr; }
@@ -40,8 +45,17 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
 MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const ObjectClue& clue,
                    Time stamp, const SceneParams& params);
 
-// Notes that a frame of that stamp used the id, unless it is the object's newest one.
-void NoteId(MovingObject& object, ObjectId told_as, Time stamp);
+// Notes that a frame of that stamp used these ids, unless one is the object's newest one.
+void NoteIds(MovingObject& object, const std::vector<ObjectId>& named_as, Time stamp);
+
+// T_W_O where the motion starts: known or predicted. A motion that starts before the object was
+// first seen counts, as a constant screw, from then on.
+Pose StartOf(const ObjectMotion& motion, const MovingObject& object, Time stamp,
+             const SceneParams& params);
+
+// Whether the motion starts from a pose of the object that is known, be it by another prediction:
+// not after the newest, and not before the first.
+bool StartsAtAPose(const ObjectMotion& motion, const MovingObject& object);
 
 // Whether the object was unplaced for so long that nothing tells where O is in this frame: a motion
 // that starts, or a prediction that would have to reach, beyond the horizon. Its model has to be

@@ -11,6 +11,7 @@
 #include "scene/mutual_fit.h"
 #include "scene/other_shape.h"
 #include "scene/reidentification.h"
+#include "scene/report_issue.h"
 #include "scene/rivals.h"
 #include "scene/same_object.h"
 #include "scene/sparse_sight.h"
@@ -119,6 +120,25 @@ bool AreTwo(const Match& match, const ObjectMap& objects, const LabelledCloud& c
                     of_few * ShareOfHeightsMissed(young) / kEnoughOfHeights) > may_be;
 }
 
+// Gives the object's clue the motion or pose that counts: its own, which came under the id with
+// most points, else that under the newest id. The report names the others.
+void TakePlacement(const MovingObject& object, const ClueMap& clues, ObjectClue& clue,
+                   FrameReport& report) {
+  const ObjectId own = clue.named_as.front();
+  const std::vector<ObjectId> ids = object.Ids();
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id) {
+    const auto other = clues.find(*id);
+    if (*id == own || other == clues.end() || !other->second.Places()) continue;
+    if (clue.Places()) {
+      AddIssue({ObjectIssueKind::kMotionConflict, *id}, report);
+      continue;
+    }
+    clue.motion = other->second.motion;
+    clue.pose = other->second.pose;
+    clue.named_as.push_back(*id);
+  }
+}
+
 }  // namespace
 
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
@@ -134,7 +154,8 @@ SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time s
   return objects;
 }
 
-std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues) {
+std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues,
+                                       FrameReport& report) {
   std::set<ObjectId> two_after_all;
   for (const auto& object : objects) {
     if (object->also.empty()) continue;
@@ -149,7 +170,8 @@ std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clu
       continue;
     }
     ObjectClue clue = told.back()->second;
-    clue.told_as = told.back()->first;
+    clue.named_as = {told.back()->first};
+    TakePlacement(*object, clues, clue, report);
     for (const auto& other : told) clues.erase(other);
     clues[object->id] = clue;
   }

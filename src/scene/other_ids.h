@@ -7,6 +7,7 @@
 
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/moving_object.h"
+#include "clearway/scene/scene_builder.h"
 #include "scene/given_object.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
@@ -19,10 +20,12 @@ namespace clearway {
 SceneObjects WithoutLapsedIds(SceneObjects objects, const ClueMap& clues, Time stamp,
                               const SceneParams& params);
 
-// What the frame says of an object under other ids counts for its first one. Returns the objects of
-// which two ids have points in this frame (more than a few strays): they are two after all, and
-// their clues stay as they are.
-std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues);
+// What the frame says of an object under other ids counts for its first one: the points of the id
+// that has most, and its motion or pose, else that of the newest id which has one. The report names
+// other motions and poses (kMotionConflict). Returns the objects of which two ids have points in
+// this frame (more than a few strays): they are two after all, and their clues stay as they are.
+std::set<ObjectId> GatherUnderFirstIds(const SceneObjects& objects, ClueMap& clues,
+                                       FrameReport& report);
 
 // Those of the objects that were dropped before, and of all that were there before, that are no
 // longer among the objects, but may be what was first seen not long ago.

@@ -125,6 +125,10 @@ MovingObject GoneOnAs(MovingObject lost, const MovingObject& young, const Pose& 
   if (lost.future.empty()) lost.future_velocity_O = {};
   lost.tracked_since = young.tracked_since;
   lost.bridged = young.bridged;
+  lost.placed_at = young.placed_at;
+  lost.estimated = young.estimated;
+  lost.reported |= young.reported;
+  lost.last_view.reset();
   return lost;
 }
 

@@ -114,8 +114,8 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   LeaveOutPointsOfGiven(scene_.objects, cloud, report);
   VoxelMap static_map_W = scene_.LastingMap();
   ClueMap clues = CluesOf(frame, cloud);
-  ObjectMap objects =
-      Continuing(scene_.objects, frame.stamp, scene_.params, clues, static_map_W, report);
+  ObjectMap objects = Continuing(scene_.objects, cloud, frame.stamp, scene_.params, limits_, clues,
+                                 static_map_W, report);
   auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
   if (!cast.ok()) return cast.status();
   if (!late) ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);

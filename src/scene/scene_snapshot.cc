@@ -112,6 +112,7 @@ void ContentHasher::Add(const SceneParams& params) {
     Add(std::int64_t{duration.count()});
   }
   Add(static_cast<std::int64_t>(params.motion));
+  Add(static_cast<std::int64_t>(params.motion_from_points));
   Add(params.rest_distance_m);
   Add(params.object_pose_error_m);
   Add(params.object_pose_error_rad);
@@ -139,6 +140,9 @@ void ContentHasher::Add(const MovingObject& object) {
     Add(value);
   }
   Add(object.tracked_since);
+  Add(object.placed_at);
+  Add(std::int64_t{object.estimated});
+  Add(std::int64_t{object.reported});
   Add(object.T_B_O);
   Add(object.first_seen);
   Add(object.last_seen);
@@ -185,7 +189,8 @@ bool SameObject(const MovingObject& a, const MovingObject& b) {
          a.future_velocity_O == b.future_velocity_O && SameShape(a, b) &&
          a.velocity_O == b.velocity_O && a.T_B_O == b.T_B_O && a.first_seen == b.first_seen &&
          a.last_seen == b.last_seen && a.frames_seen == b.frames_seen && a.bridged == b.bridged &&
-         a.bound == b.bound && a.tracked_since == b.tracked_since;
+         a.bound == b.bound && a.tracked_since == b.tracked_since && a.placed_at == b.placed_at &&
+         a.estimated == b.estimated && a.reported == b.reported;
 }
 
 }  // namespace

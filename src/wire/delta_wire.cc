@@ -89,6 +89,9 @@ class DeltaWriter {
     if (object.velocity_O) Write(*object.velocity_O, proto->mutable_velocity_object());
     if (!(object.bound == PositionBound{})) Write(object.bound, proto->mutable_bound());
     proto->set_tracked_since_ns(ToNanoseconds(object.tracked_since));
+    proto->set_placed_at_ns(ToNanoseconds(object.placed_at));
+    proto->set_estimated(object.estimated);
+    proto->set_reported(object.reported);
     if (object.T_B_O) Write(*object.T_B_O, proto->mutable_box_from_object());
     proto->set_first_seen_ns(ToNanoseconds(object.first_seen));
     proto->set_last_seen_ns(ToNanoseconds(object.last_seen));
@@ -136,6 +139,9 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
   }
   if (proto.has_bound()) object.bound = read.ReadBound("bound", proto.bound());
   object.tracked_since = read.Stamp("tracked_since_ns", true, proto.tracked_since_ns());
+  object.placed_at = read.Stamp("placed_at_ns", true, proto.placed_at_ns());
+  object.estimated = proto.estimated();
+  object.reported = proto.reported();
   if (proto.has_box_from_object()) {
     object.T_B_O = read.ReadPose("box_from_object", true, proto.box_from_object());
   }

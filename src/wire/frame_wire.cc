@@ -82,6 +82,37 @@ void ReadPoints(const v1::Frame& proto, const FrameLimits& limits, FieldReader& 
   SetPoints(*image, frame);
 }
 
+// What became of the objects' motions.
+void WriteObjects(const FrameReport& report, v1::FrameReport* proto) {
+  proto->set_motions_implausible(report.motions_implausible);
+  proto->set_motions_conflicting(report.motions_conflicting);
+  proto->set_objects_bridged(report.objects_bridged);
+  proto->set_objects_estimated(report.objects_estimated);
+  proto->set_objects_restarted(report.objects_restarted);
+  for (const ObjectIssue& issue : report.issues) {
+    v1::ObjectIssue* out = proto->add_issues();
+    out->set_object_id(issue.id);
+    out->set_kind(static_cast<v1::ObjectIssueKind>(issue.kind));
+    out->set_value(issue.value);
+    out->set_limit(issue.limit);
+  }
+}
+
+void ReadObjects(const v1::FrameReport& proto, FrameReport& report) {
+  report.motions_implausible = proto.motions_implausible();
+  report.motions_conflicting = proto.motions_conflicting();
+  report.objects_bridged = proto.objects_bridged();
+  report.objects_estimated = proto.objects_estimated();
+  report.objects_restarted = proto.objects_restarted();
+  for (const v1::ObjectIssue& issue : proto.issues()) {
+    const bool known = v1::ObjectIssueKind_IsValid(issue.kind()) &&
+                       issue.kind() != v1::OBJECT_ISSUE_KIND_UNSPECIFIED;
+    if (!known) continue;  // of a newer server
+    report.issues.push_back({static_cast<ObjectIssueKind>(issue.kind()), issue.object_id(),
+                             issue.value(), issue.limit()});
+  }
+}
+
 }  // namespace
 
 void Write(const Frame& frame, v1::Frame* proto) {
@@ -176,6 +207,7 @@ void Write(const PushAck& ack, v1::PushFrameResponse* proto) {
   report->set_objects_reidentified(ack.report.objects_reidentified);
   report->set_points_doubted(ack.report.points_doubted);
   report->set_voxels_dynamic(ack.report.voxels_dynamic);
+  WriteObjects(ack.report, report);
   if (ack.report.T_W_S) Write(*ack.report.T_W_S, report->mutable_world_from_sensor());
   report->set_late_by_ns(ack.report.late_by.count());
 }
@@ -199,6 +231,7 @@ PushAck ReadPushAck(const v1::PushFrameResponse& proto) {
   ack.report.points_doubted = report.points_doubted();
   ack.report.voxels_dynamic = report.voxels_dynamic();
   ack.report.late_by = Duration(report.late_by_ns());
+  ReadObjects(report, ack.report);
   if (report.has_world_from_sensor()) {
     FieldReader read("report.");
     const Pose T_W_S = read.ReadPose("world_from_sensor", true, report.world_from_sensor());

@@ -41,6 +41,7 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
   proto->set_frames_seen(object.frames_seen);
   proto->set_at_rest(object.at_rest);
   proto->set_bridged(object.bridged);
+  proto->set_pose_source(static_cast<v1::PoseSource>(static_cast<int>(object.pose_source) + 1));
   if (!object.box_O.Empty()) WriteExtent(object.extent, proto->mutable_extent_object());
   proto->set_given(object.given);
   if (object.future_end) proto->set_future_end_ns(ToNanoseconds(*object.future_end));
@@ -49,6 +50,19 @@ void Write(const ObjectInfo& object, v1::ObjectInfo* proto) {
 }
 
 namespace {
+
+PoseSource ReadPoseSource(v1::PoseSource proto) {
+  switch (proto) {
+    case v1::POSE_SOURCE_REPORTED:
+      return PoseSource::kReported;
+    case v1::POSE_SOURCE_ESTIMATED:
+      return PoseSource::kEstimated;
+    case v1::POSE_SOURCE_BRIDGED:
+      return PoseSource::kBridged;
+    default:
+      return PoseSource::kFirstSight;
+  }
+}
 
 // But for its parts.
 ObjectInfo ReadAlone(const v1::ObjectInfo& proto, FieldReader& read) {
@@ -72,6 +86,7 @@ ObjectInfo ReadAlone(const v1::ObjectInfo& proto, FieldReader& read) {
   object.frames_seen = proto.frames_seen();
   object.at_rest = proto.at_rest();
   object.bridged = proto.bridged();
+  object.pose_source = ReadPoseSource(proto.pose_source());
   if (proto.has_extent_object()) object.extent = ReadExtent(read, proto.extent_object());
   object.given = proto.given();
   if (proto.has_future_end_ns()) object.future_end = TimeFromNanoseconds(proto.future_end_ns());

@@ -46,6 +46,31 @@ SolidMode ReadSolidMode(int proto, FieldReader& read) {
   }
 }
 
+v1::MotionFromPoints ToProto(MotionFromPoints value) {
+  switch (value) {
+    case MotionFromPoints::kAuto:
+      return v1::MOTION_FROM_POINTS_AUTO;
+    case MotionFromPoints::kOn:
+      return v1::MOTION_FROM_POINTS_ON;
+    case MotionFromPoints::kOff:
+      return v1::MOTION_FROM_POINTS_OFF;
+  }
+  return v1::MOTION_FROM_POINTS_UNSPECIFIED;
+}
+
+MotionFromPoints ReadMotionFromPoints(int proto, FieldReader& read) {
+  switch (proto) {
+    case v1::MOTION_FROM_POINTS_AUTO:
+      return MotionFromPoints::kAuto;
+    case v1::MOTION_FROM_POINTS_ON:
+      return MotionFromPoints::kOn;
+    default:
+      read.Require(v1::MotionFromPoints_IsValid(proto), "motion_from_points",
+                   "is not a known mode");
+      return MotionFromPoints::kOff;
+  }
+}
+
 }  // namespace
 
 v1::SpaceStatus ToProto(SpaceStatus status) {
@@ -99,6 +124,7 @@ void Write(const SceneParams& params, v1::SceneParams* proto) {
   proto->set_clear_objects_by_rays(params.clear_objects_by_rays);
   proto->set_motion(params.motion == MotionModel::kTrack ? v1::MOTION_MODEL_TRACK
                                                          : v1::MOTION_MODEL_LAST_MOTION);
+  proto->set_motion_from_points(ToProto(params.motion_from_points));
   proto->set_horizon_ns(params.horizon.count());
   proto->set_object_lifetime_ns(params.object_lifetime.count());
   proto->set_history_ns(params.history.count());
@@ -125,13 +151,13 @@ absl::StatusOr<SceneParams> ReadSceneParams(const std::string& field,
   params.object_resolution_m = proto.object_resolution_m();
   params.occupancy = {proto.probability_hit(), proto.probability_miss(), proto.clamp_min(),
                       proto.clamp_max(), proto.occupied_threshold()};
-  params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m(),
-                 proto.octomap_ends()};
+  params.rays = {proto.max_range_m(), proto.discretize(), proto.grazing_m(), proto.octomap_ends()};
   params.solid = ReadSolidMode(proto.solid(), read);
   params.clear_objects_by_rays = proto.clear_objects_by_rays();
   read.Require(v1::MotionModel_IsValid(proto.motion()), "motion", "is not a known model");
   params.motion =
       proto.motion() == v1::MOTION_MODEL_TRACK ? MotionModel::kTrack : MotionModel::kLastMotion;
+  params.motion_from_points = ReadMotionFromPoints(proto.motion_from_points(), read);
   params.horizon = Duration(proto.horizon_ns());
   params.object_lifetime = Duration(proto.object_lifetime_ns());
   params.history = Duration(proto.history_ns());

@@ -164,5 +164,18 @@ TEST_F(Dynosam, MotionsThatTurnTooFarAreLeftOut) {
   EXPECT_THAT(dut->frames.description, HasSubstr("1 motions of more than 0.9 half turns"));
 }
 
+// Object 8 is there in frames 1 and 3.
+TEST_F(Dynosam, AfterAGapAMotionBeginsAtTheLastPose) {
+  folder_.Write(Name("object_pose"),
+                DynosamObjectLog({"1,8,1,0,5,0,0,0,1", "3,8,1.4,0,5,0,0,0,1"}));
+  folder_.Write(Name("object_motion"), DynosamObjectLog({"2,7,0.2,0,0,0,0,0,1"}));
+  const auto dut = Open();
+  const Frame frame = FrameOf(dut, 2);
+  ASSERT_EQ(frame.motions.size(), 1u);
+  EXPECT_EQ(frame.motions[0].id, 8);
+  EXPECT_EQ(frame.motions[0].from, dut->poses[0].stamp);
+  EXPECT_TRUE(frame.motions[0].H_W.translation.isApprox(Eigen::Vector3d(0.4, 0, 0), 1e-9));
+}
+
 }  // namespace
 }  // namespace clearway

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "absl/strings/str_cat.h"
 #include "io/lidar_example.h"
 #include "support/data_folder.h"
 
@@ -62,6 +63,44 @@ TEST(LidarFolder, MotionsJoinConsecutiveBoxes) {
   // A quarter turn about the box' centre, which stays where it is.
   EXPECT_TRUE((motion.H_W * Eigen::Vector3d(10, 3, 1)).isApprox(Eigen::Vector3d(10, 3, 1), 1e-9));
   EXPECT_TRUE((motion.H_W * Eigen::Vector3d(11, 3, 1)).isApprox(Eigen::Vector3d(10, 4, 1), 1e-9));
+}
+
+// The cyclist is there in the first frame and in the last.
+TEST(LidarFolder, AfterAGapAMotionBeginsAtTheLastBox) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  folder.Write("objects_icp.csv",
+               std::string(kObjects) + "4,3,Cyclist,0,2,1,2,0,1,0,0,3,0,1,0,5,0,0,1,1\n");
+  for (const int over_ms : {0, 100, 5000}) {
+    const auto dut =
+        OpenLidarFolder(folder.path(), {.motions_over = std::chrono::milliseconds(over_ms)});
+    ASSERT_TRUE(dut.ok()) << dut.status();
+    const auto frame = dut->frames.read(2);
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    ASSERT_EQ(frame->motions.size(), 2u);
+    EXPECT_EQ(frame->motions[1].id, 3);
+    EXPECT_EQ(frame->motions[1].from, TimeFromNanoseconds(400'000'000));
+    EXPECT_TRUE(frame->motions[1].H_W.translation.isApprox(Eigen::Vector3d(2, 0, 0), 1e-9));
+  }
+}
+
+// Longer ago than objects are usually kept: the id may be another's by now.
+TEST(LidarFolder, AfterALongGapThereIsNoMotion) {
+  for (const auto& [last_s, motions] : {std::pair{10, 1u}, {11, 0u}}) {
+    TemporaryFolder folder;
+    folder.Write("poses.csv", absl::StrCat("frame,timestamp_ns,T00,T01,T02,T03,T10,T11,T12,T13,T20,"
+                                           "T21,T22,T23\n",
+                                           "0,0,1,0,0,0,0,1,0,0,0,0,1,1\n",
+                                           "1,1000000000,1,0,0,0,0,1,0,0,0,0,1,1\n", "2,", last_s,
+                                           "000000000,1,0,0,0,0,1,0,0,0,0,1,1\n"));
+    folder.Write("objects.csv",
+                 "frame,track,type,l,w,h,n_points,T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n"
+                 "0,3,Car,4,2,2,1,1,0,0,3,0,1,0,5,0,0,1,1\n"
+                 "2,3,Car,4,2,2,1,1,0,0,5,0,1,0,5,0,0,1,1\n");
+    const auto dut = OpenLidarFolder(folder.path(), {.allow_missing_points = true});
+    ASSERT_TRUE(dut.ok()) << dut.status();
+    EXPECT_EQ(dut->frames.read(2)->motions.size(), motions) << last_s;
+  }
 }
 
 TEST(LidarFolder, MotionsOverLongerBeginAtTheFirstBoxWithin) {

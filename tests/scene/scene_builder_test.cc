@@ -245,20 +245,6 @@ TEST_F(SceneBuilderTest, RefusesTooManyObjectsAndChangesNothing) {
   EXPECT_EQ(dut.Publish()->Hash(), hash);
 }
 
-TEST_F(SceneBuilderTest, RefusesAnObjectThatLeavesTheLimits) {
-  SceneBuilder dut = Builder({}, {.max_coordinate_m = 100});
-  Frame frame = FrameAt(0);
-  AddPoint(frame, 3, {1, 0, 0});
-  ASSERT_TRUE(dut.Apply(frame).ok());
-  frame = FrameAt(1);
-  frame.motions.push_back({3, Pose::Translation(150, 0, 0), At(0)});
-  const std::string hash = dut.Publish()->Hash();
-  const absl::Status status = dut.Apply(frame).status();
-  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(std::string(status.message()), testing::StartsWith("motions[0].world_motion"));
-  EXPECT_EQ(dut.Publish()->Hash(), hash);
-}
-
 TEST_F(SceneBuilderTest, RefusesAPoseThatPutsAnObjectBeyondTheLimits) {
   SceneBuilder dut = Builder({}, {.max_coordinate_m = 100});
   Frame frame = FrameAt(0);

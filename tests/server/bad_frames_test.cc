@@ -77,15 +77,9 @@ TEST_F(BadInput, Frames) {
          f.set_points_m(1, 9e4);
        },
        Code::kResourceExhausted, "frame.points_m"},
-      {"half a turn",
+      {"motion to nowhere",
        [](auto& f) {
-         f.mutable_motions(0)->mutable_world_motion()->mutable_rotation()->set_w(0);
-         f.mutable_motions(0)->mutable_world_motion()->mutable_rotation()->set_y(1);
-       },
-       Code::kInvalidArgument, "frame.motions[0].world_motion"},
-      {"moved away",
-       [](auto& f) {
-         f.mutable_motions(0)->mutable_world_motion()->mutable_translation_m()->set_x(1.5e5);
+         f.mutable_motions(0)->mutable_world_motion()->mutable_translation_m()->set_x(NAN);
        },
        Code::kInvalidArgument, "frame.motions[0].world_motion"},
       {"no motion", [](auto& f) { f.mutable_motions(0)->clear_world_motion(); },

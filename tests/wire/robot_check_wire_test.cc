@@ -194,6 +194,7 @@ TEST(SceneWire, ParamsComeBack) {
   params.solid = SolidMode::kVoxels;
   params.clear_objects_by_rays = true;
   params.motion = MotionModel::kTrack;
+  params.motion_from_points = MotionFromPoints::kOn;
   params.horizon = std::chrono::seconds(1);
   params.object_lifetime = std::chrono::seconds(2);
   params.history = std::chrono::seconds(3);

@@ -70,7 +70,8 @@ struct Frame {
   std::vector<ObjectPart> parts;
 };
 
-// Turns beyond this have no direction that one could trust.
+// The direction of a larger turn is ambiguous: a motion that turns by more is left out
+// (ObjectIssueKind::kTurnTooLarge).
 inline constexpr double kMaxTurn_rad = 0.9 * std::numbers::pi;
 
 // Bounds on what a frame may hold, and the scene after it.
@@ -90,9 +91,9 @@ struct FrameLimits {
 
 // INVALID_ARGUMENT or RESOURCE_EXHAUSTED, naming the field as in the wire format
 // ("motions[2].world_motion") and the limit: arrays of different lengths, labels below -1, poses
-// that are not finite or not of unit rotation, ids that occur twice, parts of themselves or of
-// parts, a motion that turns by more than 0.9 half turns (its direction would be ambiguous), a
-// motion that does not start before the stamp.
+// or motions that are not finite or not of unit rotation, ids that occur twice, parts of themselves
+// or of parts, a motion that does not start before the stamp. Motions that are well formed but
+// implausible are left out when the frame is applied (ObjectIssueKind).
 absl::Status Validate(const Frame& frame, const FrameLimits& limits);
 
 // INVALID_ARGUMENT for a stamp of more than 2^62 ns either way: differences of stamps must not

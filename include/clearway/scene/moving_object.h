@@ -59,6 +59,7 @@ std::shared_ptr<const Solid> SolidOf(const Shape& shape);
 // How far from where it is predicted an object's centre (that of its solid's box) is at most, in 95
 // of 100 cases: at_m + speed_mps h + accel_mps2 h^2 / 2, h seconds after its last pose. None of
 // the three is below 0, so that it never shrinks.
+// None exceeds kMaxBoundTerm: see Saturated.
 struct PositionBound {
   double at_m = 0, speed_mps = 0, accel_mps2 = 0;
 
@@ -71,6 +72,19 @@ struct PositionBound {
   bool operator==(const PositionBound&) const = default;
 };
 
+// No term of a bound is larger: nothing is that far off, and products with times stay finite.
+inline constexpr double kMaxBoundTerm = 1e6;
+// The bound with larger terms cut to that.
+PositionBound Saturated(const PositionBound& bound);
+
+// Where an object's newest pose comes from.
+enum class PoseSource {
+  kFirstSight = 0,  // no motion is known yet
+  kReported = 1,    // a frame's motion or pose
+  kEstimated = 2,   // registration of its points (SceneParams::motion_from_points)
+  kBridged = 3,     // prediction: its points came without a motion or pose
+};
+
 // What a source whose poses are off (SceneParams::object_pose_error_m) says of an object.
 struct ToldPose {
   Time stamp;
@@ -78,6 +92,14 @@ struct ToldPose {
   Pose T_W_T;
   Pose T_T_O;     // by how much they were off, evened out over the last views
   int views = 0;  // of the object that this is taken from
+};
+
+// How the points of the last frame that showed an object lay, in O. Of an object whose motion may
+// have to be estimated.
+struct LastView {
+  Time stamp;
+  Eigen::Vector3d centroid_O = Eigen::Vector3d::Zero();
+  Aabb box_O;
 };
 
 // By how much objects are grown at a time to come.
@@ -124,10 +146,15 @@ struct MovingObject {
   PositionBound bound;
   // The poses of the history from then on came from frames; among earlier ones are predictions.
   Time tracked_since;
+  // Stamp of the newest pose that is not a prediction.
+  Time placed_at;
+  // Whether that one was estimated from points, and whether a frame ever gave a motion or pose.
+  bool estimated = false, reported = false;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;
-  // For whoever applies frames alone: mirrors do not have it, and it counts for no comparison.
+  // For whoever applies frames alone: mirrors do not have them, and they count for no comparison.
   std::optional<ToldPose> told;
+  std::optional<LastView> last_view;
 
   Time first_seen;
   Time last_seen;  // last frame with points of it
@@ -139,6 +166,11 @@ struct MovingObject {
     return name == id || std::find(also.begin(), also.end(), name) != also.end();
   }
   std::vector<ObjectId> Ids() const;  // all that name it, the oldest first
+  PoseSource pose_source() const {
+    if (bridged) return PoseSource::kBridged;
+    if (estimated) return PoseSource::kEstimated;
+    return reported ? PoseSource::kReported : PoseSource::kFirstSight;
+  }
   bool given() const { return given_shape != nullptr; }
   // Whether its solid's shape counts as occupied: its voxels alone may (SolidMode), if it has any.
   bool FillsSolid(SolidMode mode) const { return given() || mode != SolidMode::kVoxels; }

@@ -14,6 +14,7 @@
 #include "clearway/map/ray_caster.h"
 #include "clearway/scene/frame.h"
 #include "clearway/scene/given_object.h"
+#include "clearway/scene/object_issue.h"
 #include "clearway/scene/scene_snapshot.h"
 #include "clearway/scene/world_corrections.h"
 
@@ -29,8 +30,17 @@ struct FrameReport {
   std::size_t points_self = 0;  // on the robot's own body
   std::size_t points_out_of_bounds = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
+  // Left out as if the frame did not have them: implausible ones (kTurnTooLarge, kMotionTooFar),
+  // and motions and poses besides another one of the same object (kMotionConflict).
+  std::size_t motions_implausible = 0;
+  std::size_t motions_conflicting = 0;
   std::size_t objects_created = 0;
   std::size_t objects_dropped = 0;  // one that begins anew is dropped and created
+  // Of those seen without a motion or pose: where they are predicted, where their points put them
+  // (SceneParams::motion_from_points), and with a new model (kRestarted, kBridgedTooLong).
+  std::size_t objects_bridged = 0;
+  std::size_t objects_estimated = 0;
+  std::size_t objects_restarted = 0;
   // Known again under another id (SceneParams::reidentify).
   std::size_t objects_reidentified = 0;
   // Of those used, the ones of given objects: their rays clear, and they hit nothing.
@@ -39,6 +49,8 @@ struct FrameReport {
   std::size_t points_doubted = 0;
   // In the scene after the frame (SceneParams::dynamic_life).
   std::size_t voxels_dynamic = 0;
+  // What was left out of motions, and which objects were restarted: the first kMaxObjectIssues.
+  std::vector<ObjectIssue> issues;
   // Where the sensor is in the scene's world, once applied: as the frame says, unless its pose was
   // mended (SceneParams::sensor_pose_error_m). Where this times the inverse of the frame's leads is
   // where the source's world lies in the scene's. An older server does not tell.

@@ -41,7 +41,8 @@ struct ObjectDelta {
   std::shared_ptr<const Shape> given_shape;  // null: that of `from`, or none if it is not given
   std::optional<Twist> velocity_O;
   PositionBound bound;
-  Time tracked_since;
+  Time tracked_since, placed_at;
+  bool estimated = false, reported = false;
   std::optional<Pose> T_B_O;
   Time first_seen;
   Time last_seen;

@@ -29,6 +29,16 @@ enum class MotionModel {
   kTrack = 1,       // as its poses of about the last second tell, whose noise evens out
 };
 
+// For which objects a motion is estimated when a frame gives points of them, but neither a motion
+// nor a pose: the points are registered to the object's own map.
+enum class MotionFromPoints {
+  kAuto = 0,  // those of which no frame has given a motion or pose
+  kOn = 1,    // all
+  kOff = 2,   // none: they are where they are predicted
+};
+// By mode, as settings and flags name them.
+inline constexpr std::array<std::string_view, 3> kMotionFromPointsNames = {"auto", "on", "off"};
+
 // How long an object has to stay where it is before it counts as at rest. Longer than the history,
 // it never does.
 inline constexpr Duration kRestWindow = std::chrono::seconds(1);
@@ -45,6 +55,7 @@ struct SceneParams {
   bool clear_objects_by_rays = false;
 
   MotionModel motion = MotionModel::kLastMotion;
+  MotionFromPoints motion_from_points = MotionFromPoints::kAuto;
   Duration horizon = std::chrono::seconds(5);           // how long a motion is extrapolated
   Duration object_lifetime = std::chrono::seconds(10);  // unseen for longer: dropped
   Duration history = std::chrono::seconds(10);          // how far back poses are kept

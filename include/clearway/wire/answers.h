@@ -34,6 +34,7 @@ struct ObjectInfo {
   Time first_seen, last_seen;
   std::int64_t frames_seen = 0;
   bool at_rest = false, bridged = false;
+  PoseSource pose_source = PoseSource::kFirstSight;
   bool given = false;
   std::optional<Time> future_end;
   ObjectId part_of = kStaticLabel;  // see MovingObject

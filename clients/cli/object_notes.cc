@@ -1,0 +1,104 @@
+#include "cli/object_notes.h"
+
+#include "absl/strings/str_cat.h"
+#include "cli/text.h"
+
+namespace clearway::cli {
+namespace {
+
+constexpr std::size_t kMaxObjects = 1'000;  // that are told apart
+
+const char* NameOf(ObjectIssueKind kind) {
+  switch (kind) {
+    case ObjectIssueKind::kTurnTooLarge:
+      return "TURN_TOO_LARGE";
+    case ObjectIssueKind::kMotionTooFar:
+      return "MOTION_TOO_FAR";
+    case ObjectIssueKind::kMotionConflict:
+      return "MOTION_CONFLICT";
+    case ObjectIssueKind::kRestarted:
+      return "RESTARTED";
+    case ObjectIssueKind::kBridgedTooLong:
+      return "BRIDGED_TOO_LONG";
+  }
+  return "UNSPECIFIED";
+}
+
+// What happened at `when`, and why.
+std::string Describe(const ObjectIssue& issue, const std::string& when) {
+  const std::string value = Fixed(issue.value, 2), limit = Fixed(issue.limit, 2);
+  switch (issue.kind) {
+    case ObjectIssueKind::kTurnTooLarge:
+      return absl::StrCat("motion left out at ", when, ": turns by ", value, " rad (limit ", limit,
+                          " rad); try --objects poses");
+    case ObjectIssueKind::kMotionTooFar:
+      return absl::StrCat("motion left out at ", when, ": leads to a coordinate of ", value,
+                          " m (limit ", limit, " m)");
+    case ObjectIssueKind::kMotionConflict:
+      return absl::StrCat("motion left out at ", when,
+                          ": the object has another one under another id");
+    case ObjectIssueKind::kRestarted:
+      return absl::StrCat("model restarted at ", when, ": points ", value,
+                          " m from the prediction (bound ", limit, " m)");
+    case ObjectIssueKind::kBridgedTooLong:
+      return absl::StrCat("model restarted at ", when, ": no motion or pose for ", value,
+                          " s (horizon ", limit, " s)");
+  }
+  return "";
+}
+
+}  // namespace
+
+void ObjectNotes::Add(const FrameReport& report, Time stamp) {
+  implausible_ += report.motions_implausible;
+  conflicting_ += report.motions_conflicting;
+  bridged_ += report.objects_bridged;
+  estimated_ += report.objects_estimated;
+  restarted_ += report.objects_restarted;
+  const std::size_t counted =
+      report.motions_implausible + report.motions_conflicting + report.objects_restarted;
+  unlisted_ += counted - std::min(counted, report.issues.size());
+  for (const ObjectIssue& issue : report.issues) {
+    const std::pair key{issue.id, issue.kind};
+    if (issues_.size() >= kMaxObjects && !issues_.contains(key)) {
+      ++unlisted_;
+      continue;
+    }
+    Seen& seen = issues_[key];
+    if (seen.count++ == 0) seen = {issue, stamp, 1};
+  }
+}
+
+std::vector<std::string> ObjectNotes::Lines() const {
+  std::vector<std::string> lines;
+  for (const auto& [key, seen] : issues_) {
+    std::string line =
+        absl::StrCat("object ", key.first, ": ", Describe(seen.first, Seconds(seen.stamp)));
+    if (seen.count > 1) absl::StrAppend(&line, "; ", Plural(seen.count, "time"), " in all");
+    lines.push_back(std::move(line));
+  }
+  if (unlisted_ > 0) lines.push_back(absl::StrCat("and ", unlisted_, " more of these"));
+  if (bridged_ + estimated_ > 0) {
+    lines.push_back(absl::StrCat(
+        "objects came without a motion or pose ", Plural(bridged_ + estimated_, "time"), ": ",
+        estimated_, " estimated from their points, ", bridged_, " placed by prediction"));
+  }
+  return lines;
+}
+
+Json ObjectNotes::AsJson() const {
+  Json json = {{"motions_implausible", implausible_}, {"motions_conflicting", conflicting_},
+               {"objects_bridged", bridged_},         {"objects_estimated", estimated_},
+               {"objects_restarted", restarted_},     {"issues", Json::array()}};
+  for (const auto& [key, seen] : issues_) {
+    json["issues"].push_back({{"object_id", key.first},
+                              {"kind", NameOf(key.second)},
+                              {"first_stamp_ns", ToNanoseconds(seen.stamp)},
+                              {"value", seen.first.value},
+                              {"limit", seen.first.limit},
+                              {"count", seen.count}});
+  }
+  return json;
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,32 @@
+// What the report of a frame says of single objects.
+#pragma once
+
+#include <cstddef>
+
+#include "clearway/scene/frame.h"
+
+namespace clearway {
+
+enum class ObjectIssueKind {
+  // Its motion was left out, as if the frame did not have it:
+  kTurnTooLarge = 1,    // turns by `value` rad, more than kMaxTurn_rad
+  kMotionTooFar = 2,    // leads to a coordinate of `value` m, beyond FrameLimits::max_coordinate_m
+  kMotionConflict = 3,  // another motion or pose of the object under another of its ids counts
+  // Its points came without a motion or pose and are not where it was predicted: it was dropped,
+  // and a new model with the same id begins.
+  kRestarted = 4,       // the points are `value` m off; the 95 % bound is `limit` m
+  kBridgedTooLong = 5,  // its last known pose is `value` s old; the horizon is `limit` s
+};
+
+// A plain value.
+struct ObjectIssue {
+  ObjectIssueKind kind = ObjectIssueKind::kTurnTooLarge;
+  ObjectId id = 0;  // as the frame names it
+  double value = 0, limit = 0;
+  bool operator==(const ObjectIssue&) const = default;
+};
+
+// A report lists so many; its counters count all.
+inline constexpr std::size_t kMaxObjectIssues = 64;
+
+}  // namespace clearway

@@ -1,0 +1,20 @@
+// Where an object is by its points alone.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "clearway/scene/moving_object.h"
+#include "clearway/scene/scene_params.h"
+
+namespace clearway {
+
+// Whether params.motion_from_points applies to the object.
+bool MayBeEstimated(const MovingObject& object, const SceneParams& params);
+
+// T_W_O at `stamp`, after the object's newest pose, of the view that fits the object's map: near
+// where it is predicted, and where the points moved since they were seen last.
+Pose PoseFromPoints(const MovingObject& object, std::span<const Eigen::Vector3d> points_W,
+                    Time stamp, const SceneParams& params);
+
+}  // namespace clearway

@@ -1,0 +1,22 @@
+#include "scene/report_issue.h"
+
+namespace clearway {
+
+void AddIssue(const ObjectIssue& issue, FrameReport& report) {
+  switch (issue.kind) {
+    case ObjectIssueKind::kTurnTooLarge:
+    case ObjectIssueKind::kMotionTooFar:
+      ++report.motions_implausible;
+      break;
+    case ObjectIssueKind::kMotionConflict:
+      ++report.motions_conflicting;
+      break;
+    case ObjectIssueKind::kRestarted:
+    case ObjectIssueKind::kBridgedTooLong:
+      ++report.objects_restarted;
+      break;
+  }
+  if (report.issues.size() < kMaxObjectIssues) report.issues.push_back(issue);
+}
+
+}  // namespace clearway

@@ -1,0 +1,111 @@
+#include "scene/implausible_motions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::AddPoint;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+
+class ImplausibleMotions : public testing::Test {
+ protected:
+  // A van at (9, 3, 1), and static points.
+  static Frame Showing(double seconds, double x_m) {
+    Frame frame = FrameAt(seconds);
+    AddPoint(frame, kStaticLabel, {-5, 0, 0});
+    AddObject(frame, 2, Pose::Translation(x_m, 3, 1), BoxSurface({4, 2, 2}, 0.1));
+    return frame;
+  }
+  static Pose Turn(double angle_rad) {
+    return {Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ())),
+            Eigen::Vector3d::Zero()};
+  }
+  FrameReport Applied(const Frame& frame) {
+    const auto report = dut_.Apply(frame);
+    EXPECT_TRUE(report.ok()) << report.status();
+    return report.ok() ? *report : FrameReport();
+  }
+  ThreadPool pool_{1};
+  SceneBuilder dut_{SceneParams{}, {.max_coordinate_m = 100}, pool_};
+};
+
+TEST_F(ImplausibleMotions, ATurnOfNearlyHalfATurnIsLeftOutAndNamed) {
+  Applied(Showing(0, 9));
+  Frame frame = Showing(0.1, 10);
+  frame.motions.push_back({2, Pose::Translation(19, 6, 0) * Turn(std::numbers::pi), At(0)});
+  const FrameReport report = Applied(frame);
+  EXPECT_EQ(report.motions_implausible, 1u);
+  ASSERT_EQ(report.issues.size(), 1u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kTurnTooLarge);
+  EXPECT_EQ(report.issues[0].id, 2);
+  EXPECT_NEAR(report.issues[0].value, std::numbers::pi, 1e-9);
+  EXPECT_EQ(report.issues[0].limit, kMaxTurn_rad);
+  const ScenePtr scene = dut_.Publish();
+  EXPECT_EQ(scene->static_map_W.State(scene->static_map_W.grid().KeyOf({-5, 0, 0})),
+            VoxelState::kOccupied);
+  EXPECT_EQ(scene->FindObject(2)->last_seen, At(0.1));
+  EXPECT_LT(scene->FindObject(2)->solid->box_O.Size().x(), 4.5);
+}
+
+TEST_F(ImplausibleMotions, ATurnJustBelowTheLimitCounts) {
+  Applied(Showing(0, 9));
+  Frame frame = FrameAt(0.1);
+  frame.motions.push_back({2, Turn(0.89 * std::numbers::pi), At(0)});
+  EXPECT_EQ(Applied(frame).motions_implausible, 0u);
+  EXPECT_EQ(dut_.Publish()->FindObject(2)->t_k(), At(0.1));
+}
+
+TEST_F(ImplausibleMotions, AMotionThatLeadsTooFarIsLeftOutAndNamed) {
+  Applied(Showing(0, 9));
+  for (const double far_m : {98.0, 250.0, 1e9, 1e300}) {
+    Frame frame = FrameAt(0.1);
+    frame.motions.push_back({2, Pose::Translation(0, far_m, 0), At(0)});
+    frame.motions.push_back({7, Pose::Translation(0, 0.1, 0), At(0)});  // of no known object
+    frame.sensor_id = std::to_string(far_m);
+    const FrameReport report = Applied(frame);
+    EXPECT_EQ(report.motions_implausible, 1u) << far_m;
+    EXPECT_EQ(report.motions_ignored, 1u) << far_m;
+    ASSERT_EQ(report.issues.size(), 1u) << far_m;
+    EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kMotionTooFar);
+    EXPECT_EQ(report.issues[0].limit, 100);
+    EXPECT_GT(report.issues[0].value, 97);
+  }
+  EXPECT_EQ(dut_.Publish()->FindObject(2)->t_k(), At(0));
+}
+
+TEST_F(ImplausibleMotions, AMalformedOneRefusesTheFrame) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Frame frame = Showing(0.1, 10);
+    frame.motions.push_back({2, Pose::Translation(bad, 0, 0), At(0)});
+    EXPECT_EQ(dut_.Apply(frame).status().code(), absl::StatusCode::kInvalidArgument);
+  }
+}
+
+TEST_F(ImplausibleMotions, OfANewObjectTheFirstVelocityIsNotKnown) {
+  Frame frame = Showing(0.1, 10);
+  frame.motions.push_back({2, Turn(3), At(0)});
+  EXPECT_EQ(Applied(frame).motions_implausible, 1u);
+  EXPECT_FALSE(dut_.Publish()->FindObject(2)->velocity_O.has_value());
+}
+
+TEST_F(ImplausibleMotions, TheListIsBounded) {
+  Frame frame = FrameAt(0);
+  for (ObjectId id = 1; id <= 100; ++id) frame.motions.push_back({id, Turn(3), At(-1)});
+  const FrameReport report = Applied(frame);
+  EXPECT_EQ(report.motions_implausible, 100u);
+  EXPECT_EQ(report.issues.size(), kMaxObjectIssues);
+}
+
+}  // namespace
+}  // namespace clearway
