@@ -111,7 +111,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
                {"command", found.command},
                {"source", source.frames.description},
                {"truth", source.truth.description},
-               {"frames", source.frames.frame_count},
+               {"frames", found.frames},
                {"points", ToJson(found.points)},
                {"objects", Json::array()}};
   for (const auto& [id, of_object] : found.predictions) {
