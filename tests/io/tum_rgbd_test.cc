@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_replace.h"
 #include "clearway/io/world_origin.h"
+#include "io/pcd_example.h"
 #include "io/tum_rgbd_example.h"
 
 namespace clearway {
@@ -20,6 +21,24 @@ TEST_F(TumRgbd, IsToldByItsList) {
   EXPECT_FALSE(IsTumRgbd("/nowhere"));
   EXPECT_TRUE(OpenTumRgbd(folder_ / "").ok());
   EXPECT_TRUE(OpenTumRgbd(folder_ / "depth/..").ok());
+}
+
+TEST_F(TumRgbd, DepthsMayBeFloatsInMetres) {
+  folder_.Write("depth.txt", absl::StrReplaceAll(kTumDepth, {{"a.png", "a.pfm"}}));
+  std::string pfm = "Pf\n4 3\n-1\n";
+  // From the bottom up.
+  for (const float depth_m : {0.f, 0.f, 0.f, 2.f, 0.f, -1.f, 1.f, 0.f, 1.f, 0.f, 0.f, 0.f}) {
+    PutBytes(pfm, depth_m);
+  }
+  folder_.Write("depth/a.pfm", pfm);
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  const auto metres = dut->frames.read(0);
+  ASSERT_TRUE(metres.ok()) << metres.status();
+  folder_.Write("depth.txt", kTumDepth);
+  EXPECT_EQ(metres->points_S, Open()->frames.read(0)->points_S);
+  folder_.Write("depth/a.pfm", pfm.substr(0, 40));
+  EXPECT_THAT(std::string(dut->frames.read(0).status().message()), HasSubstr("a.pfm: "));
 }
 
 TEST_F(TumRgbd, FarTrajectoriesAreMovedExactly) {
