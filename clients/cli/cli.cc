@@ -23,6 +23,7 @@ constexpr char kFooter[] =
 void AddAllCommands(Cli& cli) {
   AddSimulate(cli);
   AddInfo(cli);
+  AddRecord(cli);
   AddEvaluate(cli);
   AddReplay(cli);
   AddStatus(cli);
@@ -32,6 +33,8 @@ void AddAllCommands(Cli& cli) {
   AddPlan(cli);
   AddExport(cli);
   AddLoadPrior(cli);
+  AddClearRegion(cli);
+  AddKeepOut(cli);
   AddReset(cli);
   AddServerInfo(cli);
   AddBench(cli);

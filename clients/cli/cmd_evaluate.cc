@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/evaluation.h"
 #include "cli/evaluation_html.h"
+#include "cli/frame_range.h"
 #include "cli/message.h"
 #include "cli/progress.h"
 #include "cli/told_frames.h"
@@ -27,11 +28,13 @@ constexpr char kExamples[] =
     "  clearway evaluate ~/data/kitti0000_fov --poses icp --motion track --rest-distance 0.6 "
     "--json\n"
     "  clearway evaluate ~/data/kitti0000_fov --poses oxts --motion track --sensor-error 0\n"
+    "  clearway evaluate ~/data/kitti0000_fov --from 5s --to 9.9s\n"
     "  clearway evaluate ~/data/kitti0000_fov --motion track --object-voxel 0.05 --html drive.html";
 
 struct Flags {
   std::string spec;
   SourceFlags source;
+  FrameRangeFlags range;
   std::string motion = "last", solid{kSolidModeNames[0]},
               motion_from_points{kMotionFromPointsNames[0]};
   double rest_distance_m = 0;
@@ -87,16 +90,14 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
 using AfterFrame = std::function<void(std::size_t k, Frame frame, const Frame& told,
                                       const FrameReport& report, SceneBuilder& builder)>;
 
-absl::Status MakeScene(const TrueSource& source, const SceneParams& params, const Flags& flags,
-                       const Terminal& terminal, FrameTeller& teller, const AfterFrame& after) {
-  if (source.frames.frame_count == 0) {
-    return absl::FailedPreconditionError(flags.spec + ": holds no frames");
-  }
+absl::Status MakeScene(const TrueSource& source, FrameRange range, const SceneParams& params,
+                       const Flags& flags, const Terminal& terminal, FrameTeller& teller,
+                       const AfterFrame& after) {
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
-  ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frames.frame_count);
+  ProgressBar progress(terminal.err, terminal.err_is_terminal, range.size());
   std::uint64_t points = 0;
-  for (std::size_t k = 0; k < source.frames.frame_count; ++k) {
+  for (std::size_t k = range.first; k < range.end; ++k) {
     auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
     const Frame told = teller.Tell(*frame);
@@ -106,7 +107,7 @@ absl::Status MakeScene(const TrueSource& source, const SceneParams& params, cons
     }
     points += frame->points_S.size();
     after(k, *std::move(frame), told, *report, builder);
-    progress.Update(k + 1, points);
+    progress.Update(k + 1 - range.first, points);
   }
   progress.Finish();
   return absl::OkStatus();
@@ -114,8 +115,8 @@ absl::Status MakeScene(const TrueSource& source, const SceneParams& params, cons
 
 // The scene that is evaluated next is made once before: what is predicted is judged by how the
 // world will have been corrected by then.
-absl::Status CarryTruth(const SceneParams& params, const Flags& flags, const Terminal& terminal,
-                        TrueSource& source) {
+absl::Status CarryTruth(FrameRange range, const SceneParams& params, const Flags& flags,
+                        const Terminal& terminal, TrueSource& source) {
   WorldCorrections corrections(Duration::max());
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t, const Frame& frame, const Frame&, const FrameReport& report,
@@ -126,15 +127,16 @@ absl::Status CarryTruth(const SceneParams& params, const Flags& flags, const Ter
   };
   terminal.err
       << "note: goes over the frames twice, first to see where registering puts the scans\n";
-  absl::Status status = MakeScene(source, params, flags, terminal, teller, add);
+  absl::Status status = MakeScene(source, range, params, flags, terminal, teller, add);
   if (!status.ok()) return status;
   source.truth = CarriedBy(std::move(corrections), source.truth);
   source.truth.description += ", where the sensor saw them (scans are registered to the map)";
   return absl::OkStatus();
 }
 
-absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams& params,
-                                    const Flags& flags, const Terminal& terminal) {
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, FrameRange range,
+                                    const SceneParams& params, const Flags& flags,
+                                    const Terminal& terminal) {
   Evaluator evaluator(source, flags.errors.unlabelled);
   FrameTeller teller(flags.errors);
   const auto add = [&](std::size_t k, Frame frame, const Frame& told, const FrameReport& report,
@@ -142,7 +144,7 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, const SceneParams&
     frame.T_W_S = *report.T_W_S;
     evaluator.Add(k, frame, report, teller.WithTrueNames(told, builder.Publish()));
   };
-  auto status = MakeScene(source, params, flags, terminal, teller, add);
+  auto status = MakeScene(source, range, params, flags, terminal, teller, add);
   if (!status.ok()) return status;
   Evaluation found = std::move(evaluator).Result();
   found.identities = teller.identities();
@@ -156,12 +158,18 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
   }
   auto source = OpenTrueSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
+  const auto range = FramesIn(flags.range, flags.spec, source->frames);
+  if (!range.ok()) return range.status();
+  if (range->size() < source->frames.frame_count) {
+    absl::StrAppend(&source->frames.description, ", frames ", range->first, " to ", range->end - 1);
+  }
   const SceneParams params = ParamsOf(*source, flags);
   if (auto status = Validate(params); !status.ok()) return status;
   if (params.MendsSensorPoses() && !source->simulation) {
-    if (auto status = CarryTruth(params, flags, terminal, *source); !status.ok()) return status;
+    if (auto status = CarryTruth(*range, params, flags, terminal, *source); !status.ok())
+      return status;
   }
-  auto found = Evaluate(*source, params, flags, terminal);
+  auto found = Evaluate(*source, *range, params, flags, terminal);
   if (!found.ok()) return found.status();
   found->command = cli.command_line;
   if (!flags.html.empty()) {
@@ -184,6 +192,7 @@ void AddEvaluate(Cli& cli) {
                    "ClusterSLAM sequence with poses of\nobjects, DynoSAM's logs, a recording whose "
                    "frames give\nposes of objects, or sim:NAME, whose truth is exact")
       ->required();
+  AddFrameRangeFlags(command, &flags->range);
   command->add_option("--motion", flags->motion, "As of clearway-server --scene-motion")
       ->check(CLI::IsMember({"last", "track"}))
       ->capture_default_str();

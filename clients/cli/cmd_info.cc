@@ -10,7 +10,10 @@ namespace {
 constexpr char kExamples[] =
     "  clearway info crossing.cwr\n"
     "  clearway info ~/data/kitti0000_fov --poses oxts\n"
+    "  clearway info ~/data/drive_in_utm --origin first\n"
     "  clearway info ~/data/rgbd_dataset_freiburg3_walking_xyz\n"
+    "  clearway info ~/data/semantic_kitti/sequences/08\n"
+    "  clearway info ~/data/pcd_with_poses --label-field instance\n"
     "  clearway info map.bt\n"
     "  clearway info sim:street --json";
 
@@ -33,9 +36,7 @@ absl::StatusOr<FileInfo> InfoOf(const Flags& flags) {
     case SourceKind::kRecording:
       break;
   }
-  const auto status = CheckSourceFlags(flags.source, flags.spec, SourceFormat::kRecording);
-  if (!status.ok()) return status;
-  return InfoOfRecording(flags.spec);
+  return InfoOfRecording(flags.spec, flags.source);
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -59,9 +60,12 @@ void AddInfo(Cli& cli) {
       ->add_option(
           "input", flags->spec,
           "A recording, a folder of LiDAR scans (CARLA's, too), a\nKITTI, TUM RGB-D or ClusterSLAM "
-          "sequence, DynoSAM's\nlogs, an OctoMap file (.bt, .ot), or sim:NAME")
+          "sequence, PCD or PLY\nfiles with poses, DynoSAM's logs, an OctoMap file (.bt,\n.ot), or "
+          "sim:NAME")
       ->required();
   AddPosesFlag(command, &flags->source);
+  AddCloudFlags(command, &flags->source);
+  AddOriginFlag(command, &flags->source);
   command->add_flag("--json", flags->json, "Print JSON");
 }
 

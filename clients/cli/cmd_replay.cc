@@ -8,6 +8,7 @@
 #include "clearway/client/frame_sender.h"
 #include "cli/ack_tally.h"
 #include "cli/commands.h"
+#include "cli/frame_range.h"
 #include "cli/json.h"
 #include "cli/message.h"
 #include "cli/open_source.h"
@@ -15,7 +16,6 @@
 #include "cli/server_flags.h"
 #include "cli/text.h"
 #include "cli/told_frames.h"
-#include "cli/values.h"
 
 namespace clearway::cli {
 namespace {
@@ -33,8 +33,7 @@ struct Flags {
   ErrorFlags errors;
   std::string spec;
   std::optional<double> rate;
-  std::size_t from = 0;
-  std::optional<std::size_t> to;
+  FrameRangeFlags range;
   std::string wait = "applied";
   double reconnect_for_s = 60;
   bool keep_going = false;
@@ -65,13 +64,12 @@ class Pace {
   Time first_;  // the first frame's
 };
 
-// Frames [first, end) of the source through one stream; returns what stopped it early.
-absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t end,
-                     const Flags& flags, FrameSender& sender, AckTally& tally,
-                     ProgressBar& progress) {
+// Frames of the source through one stream; returns what stopped it early.
+absl::Status SendAll(const FrameSource& source, FrameRange range, const Flags& flags,
+                     FrameSender& sender, AckTally& tally, ProgressBar& progress) {
   Pace pace(flags.rate);
   FrameTeller teller(flags.errors);
-  for (std::size_t i = first; i < end; ++i) {
+  for (std::size_t i = range.first; i < range.end; ++i) {
     auto frame = source.read(i);
     if (!frame.ok()) return frame.status();
     frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
@@ -100,7 +98,8 @@ ReconnectOptions Reconnect(const Flags& flags, std::function<void(const std::str
   return reconnect;
 }
 
-Json AsJson(const AckTally::Counts& counts, std::uint64_t reconnects, double seconds) {
+Json AsJson(const AckTally::Counts& counts, const FrameSource& source, std::uint64_t reconnects,
+            double seconds) {
   Json json = {{"frames", counts.answered},
                {"applied", counts.answered - counts.refused},
                {"refused", counts.refused},
@@ -110,6 +109,7 @@ Json AsJson(const AckTally::Counts& counts, std::uint64_t reconnects, double sec
                {"points", counts.points},
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
+               {"origin_m", ToJson(source.origin_m)},
                {"elapsed_s", seconds}};
   json["reports"] = counts.objects.AsJson();
   if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
@@ -155,37 +155,32 @@ void NotePoseError(const FrameSource& source, const SceneParams& params, std::os
       << source.sensor_pose_error_rad << " registers scans to the map)\n";
 }
 
-absl::Status CheckRange(const Flags& flags, std::size_t frame_count) {
-  if (frame_count == 0) return absl::FailedPreconditionError(flags.spec + ": holds no frames");
-  const std::size_t to = flags.to.value_or(frame_count - 1);
-  if (flags.from > to) {
-    return UsageError(absl::StrCat("--from ", flags.from, " is after --to ", to));
-  }
-  if (to >= frame_count) {
-    return UsageError(
-        absl::StrCat("--to ", to, ": ", flags.spec, " ends at frame ", frame_count - 1));
-  }
-  return absl::OkStatus();
+// The server's maps are where the frames are.
+void NoteOrigin(const FrameSource& source, std::ostream& err) {
+  if (source.origin_m.isZero(0)) return;
+  const std::string origin = OriginText(source.origin_m);
+  err << "note: the origin " << origin << " is subtracted; clearway export --format ply --origin "
+      << origin << " adds it to a map\n";
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto source = OpenSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
-  if (const absl::Status status = CheckRange(flags, source->frame_count); !status.ok())
-    return status;
-  const std::size_t end = flags.to ? *flags.to + 1 : source->frame_count;
+  const auto range = FramesIn(flags.range, flags.spec, *source);
+  if (!range.ok()) return range.status();
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
 
   if (!flags.quiet) {
     NoteResolution(*source, (*connection)->server().params, terminal.err);
     NotePoseError(*source, (*connection)->server().params, terminal.err);
+    NoteOrigin(*source, terminal.err);
   }
 
   AckTally tally;
   std::ostream nowhere(nullptr);
   ProgressBar progress(flags.quiet ? nowhere : terminal.err, terminal.err_is_terminal,
-                       end - flags.from);
+                       range->size());
   const auto note = [&](const std::string& line) {
     if (!flags.quiet) return progress.Note(line);
     terminal.err << line << std::endl;  // a lost connection is no progress
@@ -196,7 +191,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
   absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, note));
   if (!status.ok()) return status;
-  status = SendAll(*source, flags.from, end, flags, sender, tally, progress);
+  status = SendAll(*source, *range, flags, sender, tally, progress);
   const std::uint64_t reconnects = sender.state().reconnects;
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
@@ -206,7 +201,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!status.ok()) return status;
 
   if (flags.json) {
-    Print(terminal.out, AsJson(counts, reconnects, progress.state().elapsed_s));
+    Print(terminal.out, AsJson(counts, *source, reconnects, progress.state().elapsed_s));
   } else {
     PrintText(terminal.out, counts);
   }
@@ -227,18 +222,15 @@ void AddReplay(Cli& cli) {
   command
       ->add_option("source", flags->spec,
                    "A recording, a folder of LiDAR scans (CARLA's, too), a\nKITTI, TUM RGB-D or "
-                   "ClusterSLAM sequence, DynoSAM's\nlogs, or sim:NAME (a scenario of 'simulate')")
+                   "ClusterSLAM sequence, PCD or PLY files\nwith poses, DynoSAM's logs, or "
+                   "sim:NAME (a scenario of\n'simulate')")
       ->required();
   command
       ->add_option(
           "--rate", flags->rate,
           "Times as fast as recorded; 1 is real time\n(default: as fast as the server goes)")
       ->check(Between(1e-3, 1e6));
-  command->add_option("--from", flags->from, "First frame, counted from 0")
-      ->check(NotNegative())
-      ->capture_default_str();
-  command->add_option("--to", flags->to, "Last frame (default: the source's last)")
-      ->check(NotNegative());
+  AddFrameRangeFlags(command, &flags->range);
   command->add_option("--wait", flags->wait, "When a frame counts as done: accepted or applied")
       ->check(CLI::IsMember({"accepted", "applied"}).description(""))
       ->capture_default_str();

@@ -3,14 +3,11 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "clearway/io/recording.h"
 #include "clearway/sim/scenarios.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "cli/message.h"
 #include "cli/open_source.h"
-#include "cli/progress.h"
-#include "cli/text.h"
+#include "cli/write_recording.h"
 
 namespace clearway::cli {
 namespace {
@@ -26,30 +23,6 @@ struct Flags {
   bool json = false;
   SourceFlags source;
 };
-
-struct Written {
-  std::size_t frames = 0;
-  std::uint64_t points = 0;
-};
-
-absl::StatusOr<Written> WriteAll(const FrameSource& source, RecordingWriter& writer,
-                                 const Terminal& terminal) {
-  ProgressBar progress(terminal.err, terminal.err_is_terminal, source.frame_count);
-  Written written;
-  absl::Status status;
-  while (status.ok() && written.frames < source.frame_count) {
-    const auto frame = source.read(written.frames);
-    status = frame.ok() ? writer.Append(*frame) : frame.status();
-    if (!status.ok()) break;
-    ++written.frames;
-    written.points += frame->points_S.size();
-    progress.Update(written.frames, written.points);
-  }
-  progress.Finish();
-  if (status.ok()) status = writer.Close();
-  if (!status.ok()) return status;
-  return written;
-}
 
 // The scenarios' names, in lines that fit beside the argument's own name in `--help`.
 std::string NamesInLines() {
@@ -70,16 +43,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!simulation.ok()) return simulation.status();
   const FrameSource source = simulation->Frames();
 
-  RecordingOptions options;
-  options.description = source.description;
-  options.resolution_m = source.resolution_m;
-  options.overwrite = flags.force;
-  auto writer = RecordingWriter::Create(flags.out, options);
-  if (absl::IsAlreadyExists(writer.status())) {
-    return absl::AlreadyExistsError(absl::StrCat(flags.out, " exists; --force replaces it"));
-  }
-  if (!writer.ok()) return writer.status();
-  const auto written = WriteAll(source, **writer, terminal);
+  const auto written =
+      WriteRecording(source, FrameRange{0, source.frame_count}, flags.out, flags.force, terminal);
   if (!written.ok()) return written.status();
 
   if (flags.json) {
@@ -91,9 +56,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
                          {"points", written->points},
                          {"resolution_m", source.resolution_m}});
   } else {
-    terminal.out << "wrote " << flags.out << ": " << Plural(written->frames, "frame") << ", "
-                 << Plural(written->points, "point") << "\n"
-                 << "send it to a server with: clearway replay " << flags.out << "\n";
+    PrintWritten(terminal.out, flags.out, *written);
   }
   return absl::OkStatus();
 }

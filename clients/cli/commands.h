@@ -8,6 +8,7 @@ namespace clearway::cli {
 // Sources of frames, no server needed.
 void AddSimulate(Cli& cli);
 void AddInfo(Cli& cli);
+void AddRecord(Cli& cli);
 void AddEvaluate(Cli& cli);
 
 // Everything below talks to a server.
@@ -19,6 +20,8 @@ void AddCheck(Cli& cli);
 void AddPlan(Cli& cli);
 void AddExport(Cli& cli);
 void AddLoadPrior(Cli& cli);
+void AddClearRegion(Cli& cli);
+void AddKeepOut(Cli& cli);
 void AddReset(Cli& cli);
 void AddServerInfo(Cli& cli);
 void AddBench(Cli& cli);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/world_origin.h"
 
 namespace clearway::cli {
 namespace {
@@ -66,11 +67,12 @@ void AddEdges(const std::vector<Eigen::Vector2d>& points, double height_m,
 }  // namespace
 
 absl::StatusOr<Eigen::Vector2d> PointOf(const XmlElement& point) {
-  constexpr double kFarthest_m = 1e5;
   const auto x = point.Number("x"), y = point.Number("y");
   if (!x.ok()) return x.status();
   if (!y.ok()) return y.status();
-  if (std::max(std::abs(*x), std::abs(*y)) > kFarthest_m) return point.Error("is too far away");
+  if (std::max(std::abs(*x), std::abs(*y)) > kMaxFileCoordinate_m) {
+    return point.Error(absl::StrCat("is beyond the limit of ", kMaxFileCoordinate_m, " m"));
+  }
   return Eigen::Vector2d(*x, *y);
 }
 

@@ -44,13 +44,14 @@ Evaluator::Evaluator(const TrueSource& source, const std::vector<ObjectId>& unla
 
 void Evaluator::Add(std::size_t k, const Frame& frame, const FrameReport& report, ScenePtr scene) {
   constexpr std::size_t kWaysEvery = 5;
+  const std::size_t added = found_.frames++;
   // A late frame moves no object on: what it shows was scored with the newest frame.
   if (report.late_by == Duration::zero()) predictions_.Add(*scene);
   boxes_.Add(*scene);
   if (judge_) judge_->Add(k, frame, *scene);
-  if (box_judge_) box_judge_->Add(k, frame, *scene);
+  if (box_judge_) box_judge_->Add(added, frame, *scene);
   if (unlabelled_) unlabelled_->Add(frame, *scene);
-  if (k % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
+  if (added % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
   AddPoints(report);
   found_.notes.Add(report, frame.stamp);
   AddObjects(*scene);

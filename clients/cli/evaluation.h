@@ -43,6 +43,7 @@ struct PointCounts {
 
 struct Evaluation {
   std::string command;                                            // that made it
+  std::size_t frames = 0;                                         // that were applied
   std::map<ObjectId, std::vector<PredictionErrors>> predictions;  // by kAhead
   std::map<ObjectId, BoxFit> sizes;
   // After each frame that showed the object: seconds since the first frame, occupied voxels.

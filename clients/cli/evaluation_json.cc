@@ -107,10 +107,14 @@ Json ToJson(const std::vector<Confusion>& ways) {
 }  // namespace
 
 void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& found) {
-  Json json = {{"clearway", CLEARWAY_VERSION},        {"command", found.command},
-               {"source", source.frames.description}, {"truth", source.truth.description},
-               {"frames", source.frames.frame_count}, {"points", ToJson(found.points)},
-               {"reports", found.notes.AsJson()},     {"objects", Json::array()}};
+  Json json = {{"clearway", CLEARWAY_VERSION},
+               {"command", found.command},
+               {"source", source.frames.description},
+               {"truth", source.truth.description},
+               {"frames", found.frames},
+               {"points", ToJson(found.points)},
+               {"reports", found.notes.AsJson()},
+               {"objects", Json::array()}};
   for (const auto& [id, of_object] : found.predictions) {
     Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", ToJson(of_object)}};
     const auto size = found.sizes.find(id);

@@ -15,7 +15,7 @@ struct FileInfo {
   Json json;
 };
 
-absl::StatusOr<FileInfo> InfoOfRecording(const std::string& path);
+absl::StatusOr<FileInfo> InfoOfRecording(const std::string& path, const SourceFlags& flags);
 absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const SourceFlags& flags);
 absl::StatusOr<FileInfo> InfoOfOctomap(const std::string& path);
 absl::StatusOr<FileInfo> InfoOfSimulation(const std::string& spec, const SourceFlags& flags);

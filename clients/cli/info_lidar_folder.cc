@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/io/lidar_folder.h"
@@ -38,6 +40,8 @@ std::map<ObjectId, Track> TracksOf(const std::vector<RecordedBox>& boxes) {
 struct PointCount {
   std::size_t scans = 0;  // frames with points
   std::uint64_t points = 0;
+  std::uint64_t not_finite = 0;  // of these
+  std::set<ObjectId> labels;     // of objects
 };
 
 absl::StatusOr<PointCount> CountPoints(const FrameSource& frames) {
@@ -47,7 +51,11 @@ absl::StatusOr<PointCount> CountPoints(const FrameSource& frames) {
     if (!frame.ok()) return frame.status();
     count.scans += frame->points_S.empty() ? 0 : 1;
     count.points += frame->points_S.size();
+    count.labels.insert(frame->labels.begin(), frame->labels.end());
+    count.not_finite += static_cast<std::uint64_t>(std::ranges::count_if(
+        frame->points_S, [](const Eigen::Vector3f& p) { return !p.allFinite(); }));
   }
+  count.labels.erase(count.labels.begin(), count.labels.upper_bound(kStaticLabel));
   return count;
 }
 
@@ -87,6 +95,17 @@ std::string DriftOf(const FrameSource& source) {
   return absl::StrCat(" (its poses drift: off by about ", source.sensor_pose_error_m, " m)");
 }
 
+std::string NotFinite(const PointCount& count) {
+  if (count.not_finite == 0) return "";
+  return absl::StrCat(", of which ", Grouped(count.not_finite),
+                      " are not finite (lost returns, left out)");
+}
+
+std::string OriginOf(const FrameSource& source) {
+  if (source.origin_m.isZero(0)) return "";
+  return absl::StrCat("origin      ", OriginText(source.origin_m), ", subtracted\n");
+}
+
 }  // namespace
 
 absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const SourceFlags& flags) {
@@ -100,20 +119,25 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
   const Time last = empty ? Time() : folder->poses.back().stamp;
 
   FileInfo info;
-  info.text = absl::StrCat(
-      "source      ", folder->frames.description, "\n", "frames      ",
-      Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
-      Grouped(count->scans), " with points\n", "points      ", Grouped(count->points), "\n",
-      "sensor      moves ", Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames),
-      "\n", "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  info.text =
+      absl::StrCat("source      ", folder->frames.description, "\n", "frames      ",
+                   Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
+                   Grouped(count->scans), " with points\n", "points      ", Grouped(count->points),
+                   NotFinite(*count), "\n", "sensor      moves ",
+                   Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames), "\n",
+                   OriginOf(folder->frames), "labels      ", Plural(count->labels.size(), "object"),
+                   "\nobjects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
   info.json = {{"kind", "lidar_folder"},
                {"path", path},
                {"description", folder->frames.description},
                {"frames", folder->frames.frame_count},
                {"frames_with_points", count->scans},
                {"points", count->points},
+               {"labelled_objects", count->labels.size()},
+               {"points_not_finite", count->not_finite},
                {"first_stamp_ns", ToNanoseconds(first)},
                {"last_stamp_ns", ToNanoseconds(last)},
+               {"origin_m", ToJson(folder->frames.origin_m)},
                {"sensor_pose_error_m", folder->frames.sensor_pose_error_m},
                {"sensor_pose_error_rad", folder->frames.sensor_pose_error_rad},
                {"objects", JsonOf(tracks)}};

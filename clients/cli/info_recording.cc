@@ -14,6 +14,9 @@ std::string AsText(const std::string& path, const RecordingInfo& info) {
                   ", stamps ", Seconds(info.first_stamp), " to ", Seconds(info.last_stamp), "\n",
                   "points      ", Grouped(info.points), "\n", "voxel size  ",
                   Fixed(info.resolution_m, 3), " m suits it\n");
+  if (!info.origin_m.isZero(0)) {
+    absl::StrAppend(&text, "origin      ", OriginText(info.origin_m), ", subtracted\n");
+  }
   for (const auto& [sensor, frames] : info.sensors) {
     absl::StrAppend(&text, "sensor      ", sensor, ", ", Plural(frames, "frame"), "\n");
   }
@@ -33,6 +36,7 @@ Json AsJson(const std::string& path, const RecordingInfo& info) {
                {"description", info.description},
                {"file_bytes", info.file_bytes},
                {"resolution_m", info.resolution_m},
+               {"origin_m", ToJson(info.origin_m)},
                {"frames", info.frames},
                {"points", info.points},
                {"first_stamp_ns", ToNanoseconds(info.first_stamp)},
@@ -53,9 +57,18 @@ Json AsJson(const std::string& path, const RecordingInfo& info) {
 
 }  // namespace
 
-absl::StatusOr<FileInfo> InfoOfRecording(const std::string& path) {
-  const auto info = InspectRecording(path);
+absl::StatusOr<FileInfo> InfoOfRecording(const std::string& path, const SourceFlags& flags) {
+  // Beyond the limit or not: what it holds is worth showing.
+  if (auto status = CheckSourceFlags(flags, path, SourceFormat::kRecording); !status.ok()) {
+    return status;
+  }
+  auto info = InspectRecording(path);
   if (!info.ok()) return info.status();
+  if (flags.origin) {
+    const auto moved = OpenSource(path, flags);
+    if (!moved.ok()) return moved.status();
+    info->origin_m = moved->origin_m;
+  }
   return FileInfo{AsText(path, *info), AsJson(path, *info)};
 }
 

@@ -5,8 +5,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/io/carla.h"
+#include "clearway/io/cloud_folder.h"
 #include "clearway/io/cluster_slam.h"
 #include "clearway/io/dynosam.h"
+#include "clearway/io/kitti_odometry.h"
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
 #include "clearway/io/tum_rgbd.h"
@@ -55,7 +57,9 @@ SourceFormat FormatOfFolder(const std::string& path) {
   if (IsDynosam(path)) return SourceFormat::kDynosam;
   if (IsClusterSlam(path)) return SourceFormat::kClusterSlam;
   if (IsCarla(path)) return SourceFormat::kCarla;
-  return IsKittiTracking(path) ? SourceFormat::kKittiTracking : SourceFormat::kLidarFolder;
+  if (IsKittiTracking(path)) return SourceFormat::kKittiTracking;
+  if (IsKittiOdometry(path)) return SourceFormat::kKittiOdometry;
+  return IsCloudFolder(path) ? SourceFormat::kCloudFolder : SourceFormat::kLidarFolder;
 }
 
 absl::StatusOr<LidarFolder> OpenFormat(SourceFormat format, const std::string& path,
@@ -66,10 +70,18 @@ absl::StatusOr<LidarFolder> OpenFormat(SourceFormat format, const std::string& p
     return OpenDynosam(path, {.objects = LidarObjectsOf(flags.objects),
                               .allow_missing_points = allow_missing_points});
   }
+  if (format == SourceFormat::kCloudFolder) {
+    return OpenCloudFolder(path,
+                           {.pose_table = flags.pose_table, .label_field = flags.label_field});
+  }
   LidarFolderOptions options;
   options.poses = LidarPosesOf(flags.poses);
   options.objects = LidarObjectsOf(flags.objects);
   options.allow_missing_points = allow_missing_points;
+  if (format == SourceFormat::kKittiOdometry) {
+    return OpenKittiOdometry(path, {options, flags.parked == "objects" ? ParkedObjects::kObjects
+                                                                       : ParkedObjects::kStatic});
+  }
   if (format == SourceFormat::kCarla) return OpenCarla(path, options);
   if (format == SourceFormat::kKittiTracking) return OpenKittiTracking(path, options);
   return OpenLidarFolder(path, options);
@@ -125,6 +137,7 @@ absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlag
   const SourceFormat format = FormatOfFolder(path);
   if (auto status = CheckSourceFlags(flags, path, format); !status.ok()) return status;
   auto folder = OpenFormat(format, path, flags, allow_missing_points);
+  if (folder.ok()) folder = WithOrigin(*std::move(folder), flags.origin);
   if (!folder.ok()) return folder;
   SourceContent content;
   for (const RecordedBox& box : folder->boxes) content.objects.insert(box.id);
@@ -153,7 +166,8 @@ absl::StatusOr<FrameSource> OpenSource(const std::string& spec, const SourceFlag
   if (auto status = CheckSourceFlags(flags, spec, SourceFormat::kRecording); !status.ok()) {
     return status;
   }
-  return OpenRecording(spec);
+  auto recording = OpenRecording(spec);
+  return recording.ok() ? WithOrigin(*std::move(recording), flags.origin) : recording;
 }
 
 }  // namespace clearway::cli

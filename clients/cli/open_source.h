@@ -20,9 +20,9 @@ SourceKind KindOf(const std::string& spec);
 // "sim:crossing", or "crossing"; NOT_FOUND lists the scenarios.
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags);
 
-// Of LiDAR scans, also of CARLA's, a sequence of KITTI's tracking benchmark, TUM's RGB-D benchmark
-// or the ClusterSLAM dataset, or DynoSAM's logs.
-// `allow_missing_points`: as in LidarFolderOptions.
+// Of LiDAR scans, also of CARLA's, a sequence of KITTI's tracking or odometry benchmark, TUM's
+// RGB-D benchmark or the ClusterSLAM dataset, point clouds with a table of poses, or DynoSAM's
+// logs. `allow_missing_points`: as in LidarFolderOptions.
 absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlags& flags,
                                        bool allow_missing_points);
 

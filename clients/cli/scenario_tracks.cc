@@ -12,6 +12,35 @@ namespace {
 
 constexpr double kLongest_s = 1e6;
 
+// Subtracts the origin, unless the reader of the format did.
+void Move(const std::optional<WorldOrigin>& origin, std::vector<Track>& tracks) {
+  if (!origin || tracks.empty()) return;
+  Eigen::Vector3d origin_m = origin->position_m;
+  if (origin->at_first_pose) {
+    origin_m = tracks.front().seen.front().T_W_O.translation;
+    origin_m.z() = 0;  // recordings of a plane have no height of their own
+  }
+  for (Track& track : tracks) {
+    for (Sighting& seen : track.seen) seen.T_W_O.translation -= origin_m;
+  }
+}
+
+// A scene takes nothing that is farther away.
+absl::Status CheckNear(const JsonFields& fields, const std::vector<Track>& tracks) {
+  const auto limit_m = static_cast<int>(FrameLimits().max_coordinate_m);
+  for (const Track& track : tracks) {
+    for (const Sighting& seen : track.seen) {
+      const Eigen::Vector3d& p_W = seen.T_W_O.translation;
+      if (p_W.cwiseAbs().maxCoeff() <= limit_m) continue;
+      return fields.Error(
+          "file",
+          absl::StrCat("has something at ", OriginText(p_W), ", beyond the limit of ", limit_m,
+                       " m from the origin; \"origin_m\": \"first\" or [x, y, z] moves it"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<TrackWindow> ParseWindow(const JsonFields& fields) {
   const auto from_s = fields.NumberOr("from_s", 0);
   if (!from_s.ok()) return from_s.status();
@@ -53,14 +82,18 @@ Range RangeOf(const std::vector<Track>& tracks) {
 absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& path,
                                          ObjectId first_id) {
   // What else there may be, each format knows.
-  const auto fields = JsonFields::Of(
-      value, path,
-      {"format", "file", "from_s", "for_s", "radius_m", "height_m", "road_edges", "poses"});
+  const auto fields = JsonFields::Of(value, path,
+                                     {"format", "file", "from_s", "for_s", "radius_m", "height_m",
+                                      "road_edges", "poses", "origin_m"});
   if (!fields.ok()) return fields.status();
   const auto window = ParseWindow(*fields);
   if (!window.ok()) return window.status();
-  const auto tracks = ReadTracks(*fields, value, path);
+  const auto origin = RecordedOrigin(*fields);
+  if (!origin.ok()) return origin.status();
+  auto tracks = ReadTracks(*fields, value, path);
   if (!tracks.ok()) return tracks.status();
+  if (value.at("format") != "boxes") Move(*origin, *tracks);
+  if (auto status = CheckNear(*fields, *tracks); !status.ok()) return status;
   const Range range = RangeOf(*tracks);
   const bool any_moves = range.from_s <= range.until_s;
   const std::string lasts = absl::StrFormat("from %.10g to %.10g s", range.from_s, range.until_s);

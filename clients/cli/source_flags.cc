@@ -7,6 +7,7 @@
 #include "absl/strings/str_join.h"
 #include "cli/cli.h"
 #include "cli/message.h"
+#include "cli/values.h"
 
 namespace clearway::cli {
 namespace {
@@ -20,8 +21,11 @@ constexpr unsigned kTum = Bit(SourceFormat::kTumRgbd);
 constexpr unsigned kTumOrCluster = kTum | Bit(SourceFormat::kClusterSlam);
 constexpr unsigned kLidarTables =
     Bit(SourceFormat::kLidarFolder) | Bit(SourceFormat::kKittiTracking);
-constexpr unsigned kDataSets =
+constexpr unsigned kOdometry = Bit(SourceFormat::kKittiOdometry);
+constexpr unsigned kClouds = Bit(SourceFormat::kCloudFolder);
+constexpr unsigned kWithObjects =
     kLidarTables | kTumOrCluster | Bit(SourceFormat::kCarla) | Bit(SourceFormat::kDynosam);
+constexpr unsigned kDataSets = kWithObjects | kOdometry | kClouds;
 
 // The flags that are not for every kind of source.
 struct Applies {
@@ -37,8 +41,15 @@ constexpr Applies kApplies[] = {
     {"--beams", kSimulation, "is for the LiDARs of simulations (sim:NAME)"},
     {"--keep-no-return", kSimulation, "is for rays of simulations (sim:NAME)"},
     {"--parts", kSimulation, "is for simulations with objects of parts (sim:articulated)"},
-    {"--objects", kSimulation | kDataSets, "is for simulations (sim:NAME) and data sets"},
-    {"--allow-missing-points", kDataSets, "is for data sets whose files of points may be missing"},
+    {"--objects", kSimulation | kWithObjects,
+     "is for simulations (sim:NAME) and data sets with poses or motions of objects"},
+    {"--origin", kDataSets | Bit(SourceFormat::kRecording),
+     "moves the world of data sets and recordings"},
+    {"--label-field", kClouds, "names a field of PCD and PLY files"},
+    {"--pose-table", kClouds, "names the poses of a folder of PCD or PLY files"},
+    {"--parked", kOdometry, "is about SemanticKITTI's labels"},
+    {"--allow-missing-points", kWithObjects | kOdometry,
+     "is for data sets whose files of points may be missing"},
     {"--poses", kLidarTables, "chooses a table of a folder of LiDAR scans"},
     {"--stride", kTum, "thins out the images of TUM RGB-D sequences"},
     {"--max-depth", kTumOrCluster, "limits the depths of TUM RGB-D and ClusterSLAM sequences"},
@@ -54,6 +65,10 @@ const char* NameOf(SourceFormat format) {
       return "a folder of CARLA's scans";
     case SourceFormat::kKittiTracking:
       return "a sequence of KITTI's tracking benchmark";
+    case SourceFormat::kKittiOdometry:
+      return "a sequence of KITTI's odometry benchmark";
+    case SourceFormat::kCloudFolder:
+      return "a folder of point clouds";
     case SourceFormat::kTumRgbd:
       return "a TUM RGB-D sequence";
     case SourceFormat::kClusterSlam:
@@ -125,6 +140,54 @@ void AddPosesFlag(CLI::App* command, SourceFlags* flags) {
       ->group(kSourceGroup);
 }
 
+void AddCloudFlags(CLI::App* command, SourceFlags* flags) {
+  flags->command = command;
+  command
+      ->add_option("--label-field", flags->label_field,
+                   "The field of a PCD's or PLY's points that holds the\nobject's id (0: static, "
+                   "below 0: left out)")
+      ->check([](const std::string& name) { return name.empty() ? "name a field" : ""; })
+      ->type_name("FIELD")
+      ->group(kSourceGroup);
+  command
+      ->add_option("--pose-table", flags->pose_table,
+                   "The poses of a folder of PCD or PLY files, in TUM's or\nKITTI's format "
+                   "(default: poses.txt or another usual name)")
+      ->check(CLI::ExistingFile.description(""))
+      ->type_name("FILE")
+      ->group(kSourceGroup);
+  command
+      ->add_option("--parked", flags->parked,
+                   "What vehicles and persons are that SemanticKITTI labels\nas not moving: static "
+                   "or objects")
+      ->check(CLI::IsMember({"static", "objects"}).description(""))
+      ->capture_default_str()
+      ->group(kSourceGroup);
+}
+
+void AddOriginFlag(CLI::App* command, SourceFlags* flags) {
+  flags->command = command;
+  AddParsed(command, "--origin", &flags->origin, ParseOrigin,
+            "Subtract x,y,z from all coordinates of a data set's or\nrecording's world, as of UTM; "
+            "first: where its sensor is\nfirst")
+      ->type_name("ORIGIN")
+      ->group(kSourceGroup);
+}
+
+absl::StatusOr<WorldOrigin> ParseOrigin(const std::string& text) {
+  if (text == "first") return WorldOrigin{.at_first_pose = true};
+  const auto position_m = ParsePoint(text);
+  if (!position_m.ok()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("expected first, or x,y,z in metres, not '", text, "'"));
+  }
+  if (position_m->cwiseAbs().maxCoeff() > kMaxFileCoordinate_m) {
+    return absl::InvalidArgumentError(absl::StrCat("'", text, "' is beyond the limit of ",
+                                                   kMaxFileCoordinate_m, " m either way"));
+  }
+  return WorldOrigin{.position_m = *position_m};
+}
+
 void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
   command
       ->add_option("--objects", flags->objects,
@@ -134,6 +197,8 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags) {
       ->capture_default_str()
       ->group(kSourceGroup);
   AddPosesFlag(command, flags);
+  AddCloudFlags(command, flags);
+  AddOriginFlag(command, flags);
   command
       ->add_flag("--allow-missing-points", flags->allow_missing_points,
                  "Take frames of a folder or of logs that have a pose but no\nfile of points as "

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "clearway/io/world_origin.h"
 #include "clearway/scene/frame.h"
 
 namespace clearway::cli {
@@ -17,6 +18,8 @@ enum class SourceFormat {
   kLidarFolder,
   kCarla,
   kKittiTracking,
+  kKittiOdometry,
+  kCloudFolder,
   kTumRgbd,
   kClusterSlam,
   kDynosam,
@@ -35,11 +38,17 @@ struct SourceFlags {
   bool allow_missing_points = false;
   // LiDAR folders and KITTI tracking.
   std::string poses = "any";
+  // Folders of point clouds.
+  std::string label_field, pose_table;
+  // KITTI odometry.
+  std::string parked = "static";
   // TUM RGB-D sequences; the second of ClusterSLAM's, too.
   std::uint32_t stride = 1;
   std::optional<double> max_depth_m;
   // All that are no recordings.
   std::string objects = "motions";
+  // All but simulations.
+  std::optional<WorldOrigin> origin;
 
   // Knows which flags were given. Null if these are no flags, but read from a file.
   const CLI::App* command = nullptr;
@@ -47,7 +56,12 @@ struct SourceFlags {
 
 void AddSimulationFlags(CLI::App* command, SourceFlags* flags);
 void AddPosesFlag(CLI::App* command, SourceFlags* flags);
+void AddCloudFlags(CLI::App* command, SourceFlags* flags);  // and those of KITTI odometry
+void AddOriginFlag(CLI::App* command, SourceFlags* flags);
 void AddSourceFlags(CLI::App* command, SourceFlags* flags);  // those of every kind
+
+// "first", or "x,y,z" in metres.
+absl::StatusOr<WorldOrigin> ParseOrigin(const std::string& text);
 
 // A usage error names a flag that was given and what it is for, if the source `spec` is of another
 // kind. All flags of the command count that are for some kinds alone.

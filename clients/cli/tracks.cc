@@ -35,6 +35,22 @@ absl::StatusOr<std::filesystem::path> RecordedFile(const JsonFields& fields) {
                                           folder == nullptr ? "it is not set" : folder, ")"));
 }
 
+absl::StatusOr<std::optional<WorldOrigin>> RecordedOrigin(const JsonFields& fields) {
+  constexpr char kField[] = "origin_m";
+  if (!fields.Has(kField)) return std::nullopt;
+  if (const auto text = fields.Text(kField); text.ok()) {
+    if (*text == "first") return WorldOrigin{.at_first_pose = true};
+    return fields.Error(kField, "expected \"first\" or [x, y, z]");
+  }
+  const auto position_m = fields.Vector(kField);
+  if (!position_m.ok()) return position_m.status();
+  if (position_m->cwiseAbs().maxCoeff() > kMaxFileCoordinate_m) {
+    return fields.Error(
+        kField, absl::StrCat("must lie within ", kMaxFileCoordinate_m, " m along each axis"));
+  }
+  return WorldOrigin{.position_m = *position_m};
+}
+
 void GuessVelocities(double over_s, Track& track) {
   const Sighting first = track.seen.front(), last = track.seen.back();
   constexpr double kRounding_s = 1e-6;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "clearway/io/world_origin.h"
 #include "clearway/scene/given_object.h"
 #include "cli/json.h"
 #include "cli/json_fields.h"
@@ -42,6 +43,10 @@ absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value, const
 // The field "file", in the folder that the environment's CLEARWAY_DATA names: NOT_FOUND, saying so,
 // if it is not there.
 absl::StatusOr<std::filesystem::path> RecordedFile(const JsonFields& fields);
+
+// The field "origin_m": "first" or [x, y, z], to be subtracted from the recording's coordinates. Of
+// UCY and CommonRoad, `at_first_pose` is where the first thing is first seen, on the ground.
+absl::StatusOr<std::optional<WorldOrigin>> RecordedOrigin(const JsonFields& fields);
 
 // The velocities with which it goes on before the first sighting and after the last, from how far
 // it went in the `over_s` next to them; none if it was seen once.

@@ -23,6 +23,9 @@ absl::StatusOr<LidarFolder> OpenTables(const JsonFields& fields) {
     }
     flags.poses = *poses;
   }
+  const auto origin = RecordedOrigin(fields);
+  if (!origin.ok()) return origin.status();
+  flags.origin = *origin;
   const auto folder = RecordedFile(fields);
   if (!folder.ok()) return folder.status();
   constexpr bool kAllowMissingPoints = true;
@@ -41,7 +44,8 @@ std::map<int, double> SecondsOf(const std::vector<RecordedPose>& poses) {
 }  // namespace
 
 absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::string& path) {
-  const auto fields = JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "poses"});
+  const auto fields =
+      JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "poses", "origin_m"});
   if (!fields.ok()) return fields.status();
   const auto folder = OpenTables(*fields);
   if (!folder.ok()) return folder.status();

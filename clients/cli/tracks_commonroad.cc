@@ -147,8 +147,8 @@ absl::StatusOr<XmlElement> LoadCommonRoad(const std::filesystem::path& file) {
 
 absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value,
                                                         const std::string& path) {
-  const auto fields =
-      JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "height_m", "road_edges"});
+  const auto fields = JsonFields::Of(
+      value, path, {"format", "file", "from_s", "for_s", "height_m", "road_edges", "origin_m"});
   if (!fields.ok()) return fields.status();
   const auto height_m = fields->Positive("height_m");
   if (!height_m.ok()) return height_m.status();

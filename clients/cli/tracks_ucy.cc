@@ -35,8 +35,8 @@ absl::StatusOr<std::map<int, Track>> ReadLines(const std::filesystem::path& file
 }  // namespace
 
 absl::StatusOr<std::vector<Track>> ReadUcyTracks(const Json& value, const std::string& path) {
-  const auto fields =
-      JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "radius_m", "height_m"});
+  const auto fields = JsonFields::Of(
+      value, path, {"format", "file", "from_s", "for_s", "radius_m", "height_m", "origin_m"});
   if (!fields.ok()) return fields.status();
   Cylinder shape;
   for (const auto& [name, number] :

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "clearway/io/recording.h"
 
 namespace clearway::cli {
 namespace {
@@ -32,10 +31,7 @@ TrueSource OfFolder(LidarFolder folder) {
 
 // Reads every frame once: what comes later is the truth of what is predicted before.
 absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlags& flags) {
-  if (auto status = CheckSourceFlags(flags, spec, SourceFormat::kRecording); !status.ok()) {
-    return status;
-  }
-  auto frames = OpenRecording(spec);
+  auto frames = OpenSource(spec, flags);
   if (!frames.ok()) return frames.status();
   LidarFolder told{*std::move(frames), {}, {}};
   SourceContent content;

@@ -91,6 +91,19 @@ absl::StatusOr<Aabb> ParseBox(const std::string& text) {
   return BoxOfCorners({(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]});
 }
 
+absl::StatusOr<Aabb> ParseOrderedBox(const std::string& text) {
+  const auto n = ParseNumbers(text);
+  if (!n.ok() || n->size() != 6) return Expected("x0,y0,z0,x1,y1,z1 in metres", text);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((*n)[i] <= (*n)[i + 3]) continue;
+    const char axis = "xyz"[i];
+    return absl::InvalidArgumentError(absl::StrCat("'", text, "': ", std::string(1, axis),
+                                                   "0 must not exceed ", std::string(1, axis),
+                                                   "1; give the lowest corner first"));
+  }
+  return Aabb{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+}
+
 absl::StatusOr<Aabb> ParseArea(const std::string& text) {
   const auto n = ParseNumbers(text);
   if (!n.ok() || n->size() != 4) return Expected("x0,y0,x1,y1 in metres", text);

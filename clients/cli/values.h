@@ -33,6 +33,8 @@ absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text);
 absl::StatusOr<Eigen::Vector3d> ParsePoint(const std::string& text);
 // "x0,y0,z0,x1,y1,z1": two opposite corners.
 absl::StatusOr<Aabb> ParseBox(const std::string& text);
+// The same, but the lowest corner must come first: a swapped pair is refused, not put right.
+absl::StatusOr<Aabb> ParseOrderedBox(const std::string& text);
 // "x0,y0,x1,y1": two opposite corners; z stays 0.
 absl::StatusOr<Aabb> ParseArea(const std::string& text);
 

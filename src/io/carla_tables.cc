@@ -7,6 +7,7 @@
 #include <span>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/world_origin.h"
 #include "io/csv.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
@@ -18,7 +19,7 @@ using Path = std::filesystem::path;
 
 constexpr std::int64_t kMaxFrame = 99'999'999;
 constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
-constexpr double kFarthest_m = 1e6, kFullTurn_deg = 360, kMostSeconds = 4e9;
+constexpr double kFarthest_m = kMaxFileCoordinate_m, kFullTurn_deg = 360, kMostSeconds = 4e9;
 constexpr char kEgo[] = "ego";
 
 template <std::size_t kSize>

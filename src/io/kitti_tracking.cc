@@ -1,29 +1,23 @@
 #include "clearway/io/kitti_tracking.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <memory>
 #include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "io/file.h"
 #include "io/kitti_tables.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
+#include "io/velodyne_points.h"
 
 namespace clearway {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "points are stored little endian");
-
 using Path = std::filesystem::path;
 
 constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // 10 Hz
-constexpr std::size_t kRecordBytes = 16;                    // float32 x, y, z, reflectance
-constexpr std::uint64_t kMaxPointBytes = kRecordBytes * 20'000'000;
 // Images of the drives differ in size by a few pixels; the smallest one is in all of them.
 constexpr double kImageWidth = 1224, kImageHeight = 370;
 
@@ -78,21 +72,6 @@ class Labeller {
   KittiCalibration calibration_;
   std::multimap<int, ImageRegion> unlabelled_;
 };
-
-absl::Status ReadPoints(const Path& path, Frame& frame) {
-  const absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxPointBytes);
-  if (!bytes.ok()) return bytes.status();
-  if (bytes->size() % kRecordBytes != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path.string(), ": ", bytes->size(), " bytes are not a whole number of ",
-                     kRecordBytes, "-byte points; the file seems cut off"));
-  }
-  frame.points_S.resize(bytes->size() / kRecordBytes);
-  for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
-    std::memcpy(frame.points_S[i].data(), bytes->data() + i * kRecordBytes, 12);
-  }
-  return absl::OkStatus();
-}
 
 std::vector<RecordedPose> SensorPoses(const std::vector<Pose>& T_W_I, const Pose& T_S_I) {
   std::vector<RecordedPose> poses;
@@ -162,7 +141,7 @@ absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
   const auto labeller =
       std::make_shared<const Labeller>(*calibration, std::move(labels->unlabelled));
   result.read = [labeller](const Path& points, std::span<const RecordedBox> in, Frame& frame) {
-    const absl::Status status = ReadPoints(points, frame);
+    const absl::Status status = ReadVelodynePoints(points, frame);
     if (status.ok()) labeller->Label(static_cast<int>(frame.sequence), in, frame);
     return status;
   };

@@ -54,6 +54,18 @@ absl::Status ReadPoints(const Path& path, Frame& frame) {
 
 constexpr char kOxtsSuffix[] = "_oxts";
 
+constexpr char kNoKnownLayout[] =
+    ": the files of no known layout are there:\n"
+    "  LiDAR folder           poses.csv, poses_icp.csv or poses_oxts.csv\n"
+    "  KITTI tracking         name the folder of the scans, training/velodyne/NNNN\n"
+    "  KITTI odometry         velodyne and calib.txt (SemanticKITTI: labels, too)\n"
+    "  PCD or PLY files       *.pcd or *.ply, and poses.txt\n"
+    "  TUM RGB-D              depth.txt\n"
+    "  ClusterSLAM            landmark_mapping.txt and pose\n"
+    "  CARLA                  carla_sensor.csv\n"
+    "  DynoSAM                *_camera_pose_log.csv\n"
+    "docs/formats.md describes them";
+
 // The part of the tables' names that tells the pairs apart.
 absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
   constexpr std::pair<LidarPoses, const char*> kPairs[] = {
@@ -69,13 +81,7 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
       return suffix;
     }
   }
-  return absl::NotFoundError(absl::StrCat(
-      folder.string(),
-      ": none of poses.csv, poses_icp.csv, poses_oxts.csv is there (a KITTI tracking "
-      "sequence is named by the folder of its scans, training/velodyne/NNNN; a TUM "
-      "RGB-D sequence has a depth.txt, a ClusterSLAM sequence a landmark_mapping.txt and a "
-      "folder pose, a folder of CARLA's scans a carla_sensor.csv, one of DynoSAM's logs "
-      "a *_camera_pose_log.csv)"));
+  return absl::NotFoundError(absl::StrCat(folder.string(), kNoKnownLayout));
 }
 
 }  // namespace

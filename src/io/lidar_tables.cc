@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/world_origin.h"
 #include "io/csv.h"
 #include "io/lidar_frames.h"
 #include "io/rigid_matrix.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // KITTI's rate, 10 Hz
 constexpr std::int64_t kMaxFrame = 99'999'999;
-constexpr double kFarthest_m = 1e6;
+constexpr double kFarthest_m = kMaxFileCoordinate_m, kLongest_m = 1e6;
 
 using PoseColumns = std::array<std::size_t, 12>;
 
@@ -73,7 +74,7 @@ absl::StatusOr<RecordedBox> ReadBox(const CsvTable& table, std::size_t row,
   box.id = static_cast<ObjectId>(reader.Integer(columns.fields[1], 1, kMaxId));
   box.type = reader.Text(columns.fields[2]);
   for (int i = 0; i < 3; ++i) {
-    box.size_m[i] = reader.NumberWithin(columns.fields[3 + i], kFarthest_m);
+    box.size_m[i] = reader.NumberWithin(columns.fields[3 + i], kLongest_m);
   }
   box.n_points = static_cast<int>(reader.Integer(columns.fields[6], 0, kMaxId));
   if (!reader.status().ok()) return reader.status();

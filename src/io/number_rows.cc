@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/world_origin.h"
 #include "io/file.h"
 #include "io/no_column.h"
 
@@ -54,11 +55,12 @@ std::int64_t NumberRow::Integer(std::size_t i, std::int64_t min, std::int64_t ma
 }
 
 Pose NumberRow::PoseFrom(std::size_t i) {
-  constexpr double kFarthest_m = 1e6, kUnitTolerance = 0.01;
+  constexpr double kFarthest_m = kMaxFileCoordinate_m, kUnitTolerance = 0.01;
   Pose pose{{Number(i + 6), Number(i + 3), Number(i + 4), Number(i + 5)},
             {Number(i), Number(i + 1), Number(i + 2)}};
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(pose.translation[axis]) > kFarthest_m) Fail(i + axis, "within a million metres");
+    if (std::abs(pose.translation[axis]) > kFarthest_m)
+      Fail(i + axis, absl::StrCat("within ", kFarthest_m, " m"));
   }
   const double length = pose.rotation.norm();
   if (status_.ok() && !(std::abs(length - 1) <= kUnitTolerance)) {

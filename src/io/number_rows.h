@@ -29,7 +29,7 @@ class NumberRow {
   double Number(std::size_t i);
   // An integer in [min, max].
   std::int64_t Integer(std::size_t i, std::int64_t min, std::int64_t max);
-  // x, y, z within a million metres, then a quaternion's x, y, z, w, which is normalised: files
+  // x, y, z within kMaxFileCoordinate_m, then a quaternion's x, y, z, w, which is normalised: files
   // round it.
   Pose PoseFrom(std::size_t i);
   // INVALID_ARGUMENT: "log.csv, line 12: <why>".

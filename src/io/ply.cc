@@ -1,15 +1,26 @@
 #include "clearway/io/ply.h"
 
 #include <bit>
+#include <cstring>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/world_origin.h"
 #include "io/file.h"
 
 namespace clearway {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "written as little endian");
+
+constexpr char kBegin[] =
+    "ply\nformat binary_little_endian 1.0\ncomment occupied voxels, in metres\n";
+constexpr char kPosition[] = "property float x\nproperty float y\nproperty float z\n";
+constexpr char kExactPosition[] = "property double x\nproperty double y\nproperty double z\n";
+constexpr char kColorAndObject[] =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int object\n";
+constexpr char kEnd[] = "end_header\n";
+constexpr std::size_t kPositionBytes = 12, kColorAndObjectBytes = 7;
 
 template <class T>
 void Put(std::string& out, T value) {
@@ -41,16 +52,13 @@ class PlyBuilder {
   }
 
   std::string Build(PlyStyle style) const {
-    std::string ply = absl::StrCat(
-        "ply\nformat binary_little_endian 1.0\ncomment occupied voxels, in metres\n",
-        "element vertex ", vertex_count_,
-        "\nproperty float x\nproperty float y\nproperty float z\n",
-        "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int object\n");
+    std::string ply =
+        absl::StrCat(kBegin, "element vertex ", vertex_count_, "\n", kPosition, kColorAndObject);
     if (style == PlyStyle::kCubes) {
       absl::StrAppend(&ply, "element face ", face_count_,
                       "\nproperty list uchar uint vertex_indices\n");
     }
-    ply += "end_header\n";
+    ply += kEnd;
     return ply + vertices_ + faces_;
   }
 
@@ -116,6 +124,32 @@ std::string SerializePly(std::span<const PlyLayer> layers, PlyStyle style) {
     style == PlyStyle::kPoints ? builder.AddPoints(layer) : builder.AddCubes(layer);
   }
   return builder.Build(style);
+}
+
+absl::StatusOr<std::string> WithOriginAdded(std::string_view ply, const Eigen::Vector3d& origin_m) {
+  constexpr std::size_t kRowBytes = kPositionBytes + kColorAndObjectBytes;
+  const std::size_t end = ply.find(kEnd);
+  const std::string_view header = ply.substr(0, end);
+  const std::string_view rows =
+      end == std::string_view::npos ? std::string_view() : ply.substr(end + sizeof(kEnd) - 1);
+  const std::size_t count = rows.size() / kRowBytes;
+  const std::string vertices = absl::StrCat("element vertex ", count, "\n");
+  if (rows.size() % kRowBytes != 0 ||
+      header != absl::StrCat(kBegin, vertices, kPosition, kColorAndObject)) {
+    return absl::InvalidArgumentError("not a PLY file of occupied voxels as Clearway writes it");
+  }
+  std::string moved =
+      absl::StrCat(kBegin, "comment origin ", OriginText(origin_m), " added to x, y, z\n", vertices,
+                   kExactPosition, kColorAndObject, kEnd);
+  moved.reserve(moved.size() + rows.size() + count * kPositionBytes);
+  for (std::size_t row = 0; row < count; ++row) {
+    const std::string_view bytes = rows.substr(row * kRowBytes, kRowBytes);
+    Eigen::Vector3f p;
+    std::memcpy(p.data(), bytes.data(), kPositionBytes);
+    for (int i = 0; i < 3; ++i) Put(moved, origin_m[i] + p[i]);
+    moved += bytes.substr(kPositionBytes);
+  }
+  return moved;
 }
 
 absl::Status WritePly(const std::filesystem::path& path, const VoxelMap& map, PlyStyle style) {

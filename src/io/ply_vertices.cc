@@ -10,7 +10,9 @@
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "io/file.h"
+#include "io/ply_scalar.h"
 #include "io/word_lines.h"
 
 namespace clearway {
@@ -18,10 +20,6 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxVertices = 20'000'000;
-constexpr std::string_view kScalars[] = {"char",  "uchar",  "short",   "ushort", "int",   "uint",
-                                         "float", "double", "int8",    "uint8",  "int16", "uint16",
-                                         "int32", "uint32", "float32", "float64"};
-
 template <class T>
 bool ParseWhole(std::string_view text, T& value) {
   const char* const end = text.data() + text.size();
@@ -41,6 +39,7 @@ class Reader {
 
   const absl::Status& status() const { return status_; }
   std::size_t left() const { return rest_.size(); }
+  std::string_view rest() const { return rest_; }
 
   // False at the end, or if the line does not end.
   bool NextLine() {
@@ -84,10 +83,27 @@ class Reader {
   absl::Status status_;
 };
 
+enum class Format { kAscii, kLittleEndian, kBigEndian };
+
 struct Header {
+  std::optional<Format> format;
   std::optional<std::uint64_t> vertices;
   std::vector<std::string> properties;
+  std::vector<PlyScalar> scalars;  // of the properties
 };
+
+void TakeFormat(const std::vector<std::string_view>& words, Reader& reader, Header& header) {
+  constexpr std::pair<std::string_view, Format> kFormats[] = {
+      {"ascii", Format::kAscii},
+      {"binary_little_endian", Format::kLittleEndian},
+      {"binary_big_endian", Format::kBigEndian}};
+  for (const auto& [name, format] : kFormats) {
+    if (words.size() == 3 && words[1] == name && words[2] == "1.0") header.format = format;
+  }
+  if (header.format) return;
+  reader.Fail(absl::StrCat("format ", words.size() > 1 ? Excerpt(words[1]) : "",
+                           "; ascii, binary_little_endian and binary_big_endian 1.0 are read"));
+}
 
 void TakeElement(const std::vector<std::string_view>& words, Reader& reader, Header& header) {
   std::uint64_t count = 0;
@@ -106,11 +122,13 @@ void TakeElement(const std::vector<std::string_view>& words, Reader& reader, Hea
 
 void TakeProperty(const std::vector<std::string_view>& words, Reader& reader, Header& header) {
   if (!header.vertices) return reader.Fail("a property of no element");
-  if (words.size() != 3 || std::ranges::find(kScalars, words[1]) == std::end(kScalars)) {
+  const auto scalar = words.size() == 3 ? PlyScalarNamed(words[1]) : std::nullopt;
+  if (!scalar) {
     return reader.Fail(absl::StrCat("expected a property that is one number, not '",
                                     words.size() > 1 ? Excerpt(words[1]) : "", "'"));
   }
   header.properties.emplace_back(words[2]);
+  header.scalars.push_back(*scalar);
 }
 
 // Up to end_header.
@@ -123,22 +141,17 @@ Header TakeHeader(Reader& reader) {
   } else if (reader.TakeWords() != std::vector<std::string_view>{"ply"}) {
     reader.Fail("no PLY file: it does not begin with 'ply'");
   }
-  bool formatted = false;
   while (reader.NextLine()) {
     const auto words = reader.TakeWords();
     const std::string_view key = words.empty() ? std::string_view() : words[0];
     if (key == "end_header") {
-      if (!formatted) reader.Fail("no line 'format ascii 1.0'");
+      if (!header.format) reader.Fail("no line 'format ascii 1.0', or of another format");
       if (!header.vertices) reader.Fail("no element vertex");
       return header;
     }
     if (key == "comment" || key == "obj_info") continue;
     if (key == "format") {
-      formatted = true;
-      if (words.size() != 3 || words[1] != "ascii" || words[2] != "1.0") {
-        reader.Fail(absl::StrCat("format ", words.size() > 1 ? Excerpt(words[1]) : "",
-                                 "; only ascii 1.0 is read"));
-      }
+      TakeFormat(words, reader, header);
     } else if (key == "element") {
       TakeElement(words, reader, header);
     } else if (key == "property") {
@@ -151,13 +164,16 @@ Header TakeHeader(Reader& reader) {
   return header;
 }
 
+bool Fits(const PlyProperty& property, double value) {
+  if (property.may_be_nan) return true;
+  if (!property.is_index) return std::isfinite(value);
+  return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() &&
+         value == std::floor(value);
+}
+
 double TakeNumber(const PlyProperty& property, std::string_view word, Reader& reader) {
   double value = 0;
-  const bool is_number = ParseWhole(word, value) && std::isfinite(value);
-  const bool fits =
-      !property.is_index || (value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() &&
-                             value == std::floor(value));
-  if (!is_number || !fits) {
+  if (!ParseWhole(word, value) || !Fits(property, value)) {
     reader.Fail(
         absl::StrCat("property ", property.name, ": '", Excerpt(word), "' is not ",
                      property.is_index ? "an integer from 0 to 4294967295" : "a finite number"));
@@ -173,7 +189,8 @@ Places PlacesOf(std::span<const PlyProperty> wanted, const Header& header, Reade
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     const auto found = std::ranges::find(header.properties, wanted[w].name);
     if (found == header.properties.end()) {
-      reader.Fail(absl::StrCat("the header ends without a property ", wanted[w].name));
+      reader.Fail(absl::StrCat("the header ends without a property ", wanted[w].name, "; it has ",
+                               absl::StrJoin(header.properties, " ")));
     } else {
       places[static_cast<std::size_t>(found - header.properties.begin())] = w;
     }
@@ -194,32 +211,73 @@ void TakeVertex(std::span<const PlyProperty> wanted, const Places& places, Reade
   }
 }
 
-}  // namespace
+// One row after the other, without gaps.
+void TakeBinary(std::span<const PlyProperty> wanted, const Places& places, const Header& header,
+                Reader& reader, std::vector<double>& values) {
+  std::size_t row_bytes = 0;
+  for (const PlyScalar& scalar : header.scalars) row_bytes += scalar.bytes;
+  const std::uint64_t count = *header.vertices, bytes = count * row_bytes;
+  if (reader.left() < bytes) {
+    return reader.FailCutOff(
+        absl::StrCat(reader.left(), " bytes are left for ", count, " vertices of ", row_bytes));
+  }
+  if (reader.left() > bytes) {
+    return reader.Fail(
+        absl::StrCat(reader.left() - bytes, " bytes follow the last of ", count, " vertices"));
+  }
+  const bool big_endian = header.format == Format::kBigEndian;
+  values.resize(count * wanted.size());
+  const char* at = reader.rest().data();
+  for (std::uint64_t row = 0; row < count; ++row) {
+    for (std::size_t p = 0; p < places.size(); at += header.scalars[p++].bytes) {
+      if (!places[p]) continue;
+      const double value = PlyNumberAt(at, header.scalars[p], big_endian);
+      values[row * wanted.size() + *places[p]] = value;
+      if (Fits(wanted[*places[p]], value)) continue;
+      return reader.Fail(absl::StrCat("vertex ", row, ", property ", wanted[*places[p]].name, ": ",
+                                      value, " is not a finite number, or not an index"));
+    }
+  }
+}
 
-absl::StatusOr<std::vector<double>> ReadPlyVertices(const std::filesystem::path& path,
-                                                    std::span<const PlyProperty> properties) {
-  const absl::StatusOr<std::string> text = ReadWholeFile(path, kMaxBytes);
-  if (!text.ok()) return text.status();
-  Reader reader(path.string(), *text);
-  const Header header = TakeHeader(reader);
-  const Places places = PlacesOf(properties, header, reader);
-  if (!reader.status().ok()) return reader.status();
+void TakeAscii(std::span<const PlyProperty> wanted, const Places& places, const Header& header,
+               Reader& reader, std::vector<double>& values) {
   const std::uint64_t count = *header.vertices;
   // A line has its end at least; so a header that promises more takes no memory.
   if (count > reader.left()) {
-    reader.FailCutOff(absl::StrCat(reader.left(), " bytes are left for ", count, " vertices"));
-    return reader.status();
+    return reader.FailCutOff(
+        absl::StrCat(reader.left(), " bytes are left for ", count, " vertices"));
   }
-  std::vector<double> values(count * properties.size());
+  values.resize(count * wanted.size());
   std::uint64_t row = 0;
   for (; row < count && reader.NextLine(); ++row) {
-    TakeVertex(properties, places, reader, values.data() + row * properties.size());
+    TakeVertex(wanted, places, reader, values.data() + row * wanted.size());
   }
   if (row < count) {
     reader.FailCutOff(absl::StrCat("it has ", row, " of ", count, " vertices"));
   } else if (reader.left() > 0) {
     reader.Fail(absl::StrCat(reader.left(), " bytes follow the last of ", count, " vertices"));
   }
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<double>> ReadPlyVertices(const std::filesystem::path& path,
+                                                    std::span<const PlyProperty> properties,
+                                                    std::vector<std::string>* names) {
+  const absl::StatusOr<std::string> text = ReadWholeFile(path, kMaxBytes);
+  if (!text.ok()) return text.status();
+  Reader reader(path.string(), *text);
+  const Header header = TakeHeader(reader);
+  const Places places = PlacesOf(properties, header, reader);
+  if (!reader.status().ok()) return reader.status();
+  std::vector<double> values;
+  if (header.format == Format::kAscii) {
+    TakeAscii(properties, places, header, reader, values);
+  } else {
+    TakeBinary(properties, places, header, reader, values);
+  }
+  if (names != nullptr) *names = header.properties;
   if (!reader.status().ok()) return reader.status();
   return values;
 }

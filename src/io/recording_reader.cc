@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/io/recording.h"
 #include "io/recording_codec.h"
+#include "io/recording_origin.h"
 #include "io/recording_schema.h"
 #include "io/sqlite.h"
 
@@ -112,21 +113,26 @@ class Recording {
     if (!status.ok()) return At(path, "", status);
     auto meta = ReadMeta(*database);
     if (!meta.ok()) return At(path, "", meta.status());
+    const auto origin_m = ReadRecordedOrigin(*database);
+    if (!origin_m.ok()) return At(path, "", origin_m.status());
     auto select = database->Prepare(
         "SELECT number, sensor_id, sequence, stamp_ns, point_count, arrays, world_from_sensor, "
         "motions, poses, points, checksum FROM frame WHERE number = ?");
     if (!select.ok()) return At(path, "", select.status());
     return std::make_shared<Recording>(path, *std::move(database), *std::move(select),
-                                       *std::move(meta));
+                                       *std::move(meta), *origin_m);
   }
 
-  Recording(Path path, SqliteDatabase database, SqliteStatement select, RecordedMeta meta)
+  Recording(Path path, SqliteDatabase database, SqliteStatement select, RecordedMeta meta,
+            const Eigen::Vector3d& origin_m)
       : path_(std::move(path)),
         database_(std::move(database)),
         select_(std::move(select)),
-        meta_(std::move(meta)) {}
+        meta_(std::move(meta)),
+        origin_m_(origin_m) {}
 
   const RecordedMeta& meta() const { return meta_; }
+  const Eigen::Vector3d& origin_m() const { return origin_m_; }
 
   absl::StatusOr<Frame> Read(std::size_t index) {
     const std::int64_t number = static_cast<std::int64_t>(index);
@@ -167,6 +173,7 @@ class Recording {
   SqliteDatabase database_;
   SqliteStatement select_;
   RecordedMeta meta_;
+  Eigen::Vector3d origin_m_;
 };
 
 void AddFrame(const Frame& frame, RecordingInfo& info) {
@@ -198,6 +205,7 @@ absl::StatusOr<FrameSource> OpenRecording(const Path& path) {
                                     meta.description.empty() ? "" : ": ", meta.description);
   source.frame_count = static_cast<std::size_t>(meta.frame_count);
   source.resolution_m = meta.resolution_m;
+  source.origin_m = (*recording)->origin_m();
   source.read = [shared = *recording](std::size_t index) { return shared->Read(index); };
   return source;
 }
@@ -209,6 +217,7 @@ absl::StatusOr<RecordingInfo> InspectRecording(const Path& path) {
   RecordingInfo info;
   info.description = meta.description;
   info.resolution_m = meta.resolution_m;
+  info.origin_m = (*recording)->origin_m();
   for (std::int64_t i = 0; i < meta.frame_count; ++i) {
     const absl::StatusOr<Frame> frame = (*recording)->Read(static_cast<std::size_t>(i));
     if (!frame.ok()) return frame.status();

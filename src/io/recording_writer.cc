@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/io/recording.h"
 #include "io/recording_codec.h"
+#include "io/recording_origin.h"
 #include "io/recording_schema.h"
 #include "io/sqlite.h"
 
@@ -29,6 +30,7 @@ absl::Status CheckOptions(const RecordingOptions& options) {
     return absl::InvalidArgumentError(
         absl::StrCat("resolution_m is ", options.resolution_m, "; it must be above 0"));
   }
+  if (!options.origin_m.allFinite()) return absl::InvalidArgumentError("origin_m is not finite");
   if (options.compression_level < 1 || options.compression_level > 19) {
     return absl::InvalidArgumentError(absl::StrCat(
         "compression_level is ", options.compression_level, "; it must lie between 1 and 19"));
@@ -72,6 +74,10 @@ struct RecordingWriter::Impl {
                      "; PRAGMA user_version = ", kRecordingVersion, "; BEGIN;",
                      kCreateRecordingTables, "INSERT INTO meta VALUES ('', 0.0, 0, 0);"));
     if (!status.ok()) return status;
+    if (!options.origin_m.isZero(0)) {
+      status = WriteRecordedOrigin(options.origin_m, *database);
+      if (!status.ok()) return status;
+    }
     absl::StatusOr<SqliteStatement> statement =
         database->Prepare("INSERT INTO frame VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     if (!statement.ok()) return statement.status();

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/lidar_frames.h"
+#include "io/pfm.h"
 #include "io/png.h"
 #include "io/tum_tables.h"
 
@@ -40,6 +41,14 @@ std::string Sized(const Path& path, const GrayImage& image) {
 }
 
 absl::StatusOr<DepthImage> ReadDepth(const Path& path, DepthImage camera) {
+  if (path.extension() == ".pfm") {
+    absl::StatusOr<FloatImage> metres = ReadPfm(path);
+    if (!metres.ok()) return metres.status();
+    camera.width = metres->width;
+    camera.height = metres->height;
+    camera.depth_m = std::move(metres->pixels);
+    return camera;
+  }
   absl::StatusOr<GrayImage> image = ReadGrayPng(path);
   if (!image.ok()) return image.status();
   if (image->bits != 16) {

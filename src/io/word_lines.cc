@@ -11,6 +11,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "clearway/io/world_origin.h"
 #include "io/file.h"
 
 namespace clearway {
@@ -40,7 +41,7 @@ std::optional<std::int64_t> DecimalNanoseconds(const std::string& text) {
 }  // namespace
 
 double Words::Number(std::size_t i) {
-  constexpr double kMostOfAny = 1e6;
+  constexpr double kMostOfAny = kMaxFileCoordinate_m;
   double value = 0;
   if (!absl::SimpleAtod(words_[i], &value) || !(std::abs(value) <= kMostOfAny)) {
     Fail(i, absl::StrCat("a number within ", kMostOfAny));

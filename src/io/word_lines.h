@@ -23,7 +23,7 @@ class Words {
   // "labels.txt, line 12", for messages.
   const std::string& where() const { return where_; }
   const std::string& Text(std::size_t i) const { return words_[i]; }
-  // Within a million either way.
+  // Within kMaxFileCoordinate_m either way.
   double Number(std::size_t i);
   double Positive(std::size_t i);
   int Integer(std::size_t i, int min, int max = 99'999'999);

@@ -16,7 +16,7 @@ void SurfaceJudge::Add(std::size_t k, const Frame& frame, const SceneSnapshot& s
   const Pose T_W_S = simulation_.TrueT_W_S(k);
   met_.Add(frame, T_W_S, scene);
   objects_.Add(scene, frame.T_W_S * Inverse(T_W_S));
-  if (k % kSolidsEvery == 0) solids_.Add(scene, met_);
+  if (added_++ % kSolidsEvery == 0) solids_.Add(scene, met_);
 }
 
 }  // namespace clearway

@@ -49,6 +49,18 @@ std::string SizeOf(const DepthImage& image) {
   return absl::StrCat(image.width, " x ", image.height, " pixels");
 }
 
+absl::Status CheckDepth(const DepthImage& image) {
+  if (!image.depth.empty() && !image.depth_m.empty()) {
+    return Invalid("depth_m", "is given beside depth; only one of them may be");
+  }
+  const bool metres = !image.depth_m.empty();
+  const std::size_t entries = metres ? image.depth_m.size() : image.depth.size();
+  if (entries == PixelCount(image)) return absl::OkStatus();
+  return Invalid(
+      metres ? "depth_m" : "depth",
+      absl::StrCat("has ", entries, " entries; ", SizeOf(image), " need ", PixelCount(image)));
+}
+
 absl::Status CheckMask(const DepthImage& image) {
   const std::vector<std::uint16_t>& mask = image.instance_mask;
   if (mask.empty() && !image.mask_labels.empty()) {
@@ -82,6 +94,13 @@ std::vector<double> Slopes(std::uint32_t side, std::uint32_t stride, double foca
     slopes.push_back((static_cast<double>(i) - center) / focal);
   }
   return slopes;
+}
+
+// 0 if there is no measurement.
+double DepthOf(const DepthImage& image, std::size_t pixel) {
+  if (image.depth_m.empty()) return image.depth[pixel] * image.depth_unit_m;
+  const float z_m = image.depth_m[pixel];
+  return std::isfinite(z_m) && z_m > 0 ? z_m : 0;
 }
 
 ObjectId LabelOf(const DepthImage& image, std::size_t pixel) {
@@ -120,10 +139,7 @@ absl::Status ValidateCamera(const DepthImage& image, std::size_t max_points) {
 
 absl::Status Validate(const DepthImage& image, std::size_t max_points) {
   if (auto status = ValidateCamera(image, max_points); !status.ok()) return status;
-  if (image.depth.size() != PixelCount(image)) {
-    return Invalid("depth", absl::StrCat("has ", image.depth.size(), " entries; ", SizeOf(image),
-                                         " need ", PixelCount(image)));
-  }
+  if (auto status = CheckDepth(image); !status.ok()) return status;
   return CheckMask(image);
 }
 
@@ -141,8 +157,8 @@ void SetPoints(const DepthImage& image, Frame& frame) {
     const std::size_t row = j * image.stride * image.width;
     for (std::size_t i = 0; i < right.size(); ++i) {
       const std::size_t pixel = row + i * image.stride;
-      const double z_m = image.depth[pixel] * image.depth_unit_m;
-      if (image.depth[pixel] == 0 || z_m > farthest_m) continue;
+      const double z_m = DepthOf(image, pixel);
+      if (z_m == 0 || z_m > farthest_m) continue;
       frame.points_S.push_back(Eigen::Vector3d(right[i] * z_m, down[j] * z_m, z_m).cast<float>());
       frame.labels.push_back(LabelOf(image, pixel));
     }

@@ -1,7 +1,9 @@
 #include "wire/depth_wire.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -12,7 +14,9 @@
 namespace clearway {
 namespace {
 
-constexpr std::uint64_t kDepthBytes = 2;  // of a pixel
+constexpr std::uint64_t kDepthBytes = 2, kDepthMetreBytes = 4;  // of a pixel
+
+static_assert(std::endian::native == std::endian::little, "floats travel little endian");
 
 // Little endian, whatever the machine is.
 std::vector<std::uint16_t> ReadWords(const std::string& bytes) {
@@ -32,9 +36,20 @@ void WriteWords(const std::vector<std::uint16_t>& words, std::string* bytes) {
   }
 }
 
+std::vector<float> ReadFloats(const std::string& bytes) {
+  std::vector<float> floats(bytes.size() / sizeof(float));
+  if (!floats.empty()) std::memcpy(floats.data(), bytes.data(), floats.size() * sizeof(float));
+  return floats;
+}
+
 // Everything but the arrays of pixels.
 DepthImage ReadCamera(const v1::DepthImage& proto, FieldReader& read) {
-  read.Require(proto.has_depth_unit_m(), "depth_unit_m", "is missing");
+  const bool metres = !proto.depth_m().empty();
+  read.Require(metres || proto.has_depth_unit_m(), "depth_unit_m", "is missing");
+  read.Require(!metres || !proto.has_depth_unit_m(), "depth_unit_m",
+               "is for depth; depth_m is in metres");
+  read.Require(!metres || proto.depth().empty(), "depth_m",
+               "is given beside depth; only one of them may be");
   read.Require(proto.has_fx(), "fx", "is missing");
   read.Require(proto.has_fy(), "fy", "is missing");
   read.Require(proto.has_cx(), "cx", "is missing");
@@ -45,7 +60,7 @@ DepthImage ReadCamera(const v1::DepthImage& proto, FieldReader& read) {
   if (!read.ok()) return image;
   image.width = proto.width();
   image.height = proto.height();
-  image.depth_unit_m = proto.depth_unit_m();
+  if (!metres) image.depth_unit_m = proto.depth_unit_m();
   image.fx = proto.fx();
   image.fy = proto.fy();
   image.cx = proto.cx();
@@ -58,8 +73,12 @@ DepthImage ReadCamera(const v1::DepthImage& proto, FieldReader& read) {
 
 void CheckBytes(const v1::DepthImage& proto, std::uint64_t pixels, FieldReader& read) {
   const std::string size = absl::StrCat(proto.width(), " x ", proto.height(), " pixels need ");
-  if (const std::uint64_t bytes = proto.depth().size(); bytes != kDepthBytes * pixels) {
-    read.Fail("depth", absl::StrCat("has ", bytes, " bytes; ", size, kDepthBytes * pixels));
+  const bool metres = !proto.depth_m().empty();
+  const std::uint64_t depth_bytes = metres ? proto.depth_m().size() : proto.depth().size();
+  const std::uint64_t needed = pixels * (metres ? kDepthMetreBytes : kDepthBytes);
+  if (depth_bytes != needed) {
+    read.Fail(metres ? "depth_m" : "depth",
+              absl::StrCat("has ", depth_bytes, " bytes; ", size, needed));
   }
   const std::uint64_t bytes = proto.instance_mask().size();
   if (bytes != 0 && bytes != pixels && bytes != 2 * pixels) {
@@ -73,8 +92,12 @@ void CheckBytes(const v1::DepthImage& proto, std::uint64_t pixels, FieldReader& 
 void Write(const DepthImage& image, v1::DepthImage* proto) {
   proto->set_width(image.width);
   proto->set_height(image.height);
-  WriteWords(image.depth, proto->mutable_depth());
-  proto->set_depth_unit_m(image.depth_unit_m);
+  if (image.depth_m.empty()) {
+    WriteWords(image.depth, proto->mutable_depth());
+    proto->set_depth_unit_m(image.depth_unit_m);
+  } else {
+    proto->set_depth_m(image.depth_m.data(), image.depth_m.size() * sizeof(float));
+  }
   proto->set_fx(image.fx);
   proto->set_fy(image.fy);
   proto->set_cx(image.cx);
@@ -98,6 +121,7 @@ absl::StatusOr<DepthImage> ReadDepthImage(const v1::DepthImage& proto, std::size
   CheckBytes(proto, PixelCount(image), read);
   if (!read.ok()) return read.status();
   image.depth = ReadWords(proto.depth());
+  image.depth_m = ReadFloats(proto.depth_m());
   const std::string& mask = proto.instance_mask();
   if (mask.size() == PixelCount(image)) {
     image.instance_mask.reserve(mask.size());

@@ -16,8 +16,9 @@ using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 std::vector<std::string> Commands() {
-  return {"simulate", "info",  "evaluate", "replay",     "status", "objects",     "occupancy",
-          "plan",     "check", "export",   "load-prior", "reset",  "server-info", "bench"};
+  return {"simulate",     "info",      "evaluate", "record",      "replay", "status",
+          "objects",      "occupancy", "plan",     "check",       "export", "load-prior",
+          "clear-region", "keep-out",  "reset",    "server-info", "bench"};
 }
 
 TEST(CommandLine, Empty) {
@@ -70,6 +71,14 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"export", "--what", "all", "--out", "m.bt"}, "--what"},
       {{"export", "--out", "map"}, "--format"},
       {{"load-prior", "map.ply"}, ".bt"},
+      {{"clear-region"}, "box"},
+      {{"clear-region", "0,0,0,1,1"}, "x0,y0,z0,x1,y1,z1"},
+      {{"clear-region", "0,0,0,1,1,nan"}, "x0,y0,z0,x1,y1,z1"},
+      {{"clear-region", "0,0,2,1,1,1"}, "z0 must not exceed z1"},
+      {{"clear-region", "-1,-1,-1,1,inf,1"}, "x0,y0,z0,x1,y1,z1"},
+      {{"keep-out", "--add", "3,0,0,1,1,1"}, "--add"},
+      {{"keep-out", "--add", "0,0,0,1,1,nan"}, "--add"},
+      {{"keep-out", "--add"}, "--add"},
       {{"bench", "--points", "0"}, "--points"},
       {{"bench", "--seed", "-1"}, "--seed"},
       {{"simulate", "street", "--out", "x", "--seed", "-1"}, "--seed"},

@@ -39,6 +39,39 @@ TEST(Evaluate, PredictionsAgainstTheSimulatorsTruth) {
   EXPECT_TRUE(too_short["median_m"].is_null());
 }
 
+TEST(Evaluate, APartOfASequence) {
+  const auto evaluate = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"evaluate", "sim:small", "--frames", "30", "--json"});
+    const Finished dut = RunClearway(flags);
+    EXPECT_EQ(dut.exit_code, 0) << dut.err;
+    return nlohmann::json::parse(dut.out);
+  };
+  const auto numbers = evaluate({"--from", "11", "--to", "25"});
+  EXPECT_EQ(numbers["frames"], 15);
+  EXPECT_THAT(numbers["source"].get<std::string>(), HasSubstr(", frames 11 to 25"));
+  // Ten frames a second: what is predicted from frame 11 on is compared with the truth.
+  const auto& object = numbers["objects"][0];
+  EXPECT_GT(object["prediction"][0]["count"], 0);
+  EXPECT_EQ(object["reconstruction"]["completeness"], 1);
+  EXPECT_FALSE(object["solids"].empty());
+  const auto seconds = evaluate({"--from", "1.1s", "--to", "2.5s"});
+  EXPECT_EQ(seconds["objects"], numbers["objects"]);
+  EXPECT_EQ(seconds["static"], numbers["static"]);
+}
+
+TEST(Evaluate, APartThatIsNotThereIsRefused) {
+  const auto refused = [](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"evaluate", "sim:small", "--frames", "30"});
+    const Finished dut = RunClearway(flags);
+    EXPECT_EQ(dut.exit_code, 2);
+    return dut.err;
+  };
+  EXPECT_THAT(refused({"--from", "30"}), HasSubstr("ends at frame 29, 2.9 s after frame 0"));
+  EXPECT_THAT(refused({"--to", "3s"}), HasSubstr("--to 3.0 s is beyond the last frame"));
+  EXPECT_THAT(refused({"--from", "2.01s", "--to", "2.02s"}), HasSubstr("no frame lies between"));
+  EXPECT_THAT(refused({"--from", "soon"}), HasSubstr("--from"));
+}
+
 TEST(Evaluate, MapsAgainstTheSimulatorsTruth) {
   const Finished dut =
       RunClearway({"evaluate", "sim:small", "--frames", "30", "--motion", "track", "--json"});

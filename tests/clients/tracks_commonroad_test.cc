@@ -167,7 +167,7 @@ TEST_F(CommonRoadTracks, WhatIsWrongIsNamed) {
          "trajectory/state/time: expected an exact value, no interval");
   expect("<point><x>1</x><y>2</y></point>", "<circle/>", "initialState/position: expected a point");
   expect("<x>1</x>", "<x>nan</x>", "initialState/position/point/x: expected a number");
-  expect("<x>1</x>", "<x>1e300</x>", "initialState/position/point: is too far away");
+  expect("<x>1</x>", "<x>1e300</x>", "initialState/position/point: is beyond the limit of 1e+08 m");
   expect("<exact>3<", "<exact>1e300<", "tracks.file: its times are too long");
   expect("staticObstacle", "phantomObstacle", "mismatch");
   expect("</commonRoad>", "", "road.xml: line 22: Start-end tags mismatch");

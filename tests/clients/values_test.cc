@@ -46,6 +46,21 @@ TEST(ParseBox, SortsItsCorners) {
   EXPECT_EQ(box->max, Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(ParseOrderedBox, TakesTheLowestCornerFirst) {
+  const auto box = ParseOrderedBox("-1,-2,-3,1,2,-3");
+  ASSERT_TRUE(box.ok()) << box.status();
+  EXPECT_EQ(box->min, Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(box->max, Eigen::Vector3d(1, 2, -3));
+}
+
+TEST(ParseOrderedBox, RefusesCornersTheOtherWayRound) {
+  EXPECT_EQ(ParseOrderedBox("0,5,0,1,2,1").status().message(),
+            "'0,5,0,1,2,1': y0 must not exceed y1; give the lowest corner first");
+  for (const char* text : {"", "0,0,0,1,1", "0,0,0,1,1,1,1", "0,0,0,1,1,nan", "-inf,0,0,1,1,1"}) {
+    EXPECT_FALSE(ParseOrderedBox(text).ok()) << text;
+  }
+}
+
 TEST(ParsePoint, RefusesWhatIsNoPoint) {
   for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1;2;3"}) {
     EXPECT_FALSE(ParsePoint(text).ok()) << text;

@@ -52,8 +52,8 @@ TEST_F(CarlaRefusal, TableOfTheSensor) {
   EXPECT_THAT(SensorError("122,-13,0,0,0,0,0,0\n"),
               HasSubstr("column timestamp: '-13' is not a number from 0 to 4e+09"));
   EXPECT_THAT(SensorError("122,13,0,nan,0,0,0,0\n"), HasSubstr("column y: 'nan'"));
-  EXPECT_THAT(SensorError("122,13,1e7,0,0,0,0,0\n"),
-              HasSubstr("column x: '1e7' is not a number from -1e+06 to 1e+06"));
+  EXPECT_THAT(SensorError("122,13,1e9,0,0,0,0,0\n"),
+              HasSubstr("column x: '1e9' is not a number from -1e+08 to 1e+08"));
   EXPECT_THAT(SensorError("122,13,0,0,0,0,0,361\n"),
               HasSubstr("line 4, column yaw: '361' is not a number from -360 to 360"));
   EXPECT_THAT(SensorError("122,13,0,0,0,0,0,3"), HasSubstr("seems cut off"));

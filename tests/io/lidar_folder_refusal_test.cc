@@ -24,7 +24,7 @@ TEST(LidarFolder, MissingPointsAreRefusedUnlessAllowed) {
 TEST(LidarFolder, SaysByWhatTheOtherFormatsAreTold) {
   const TemporaryFolder folder;
   for (const char* told : {"velodyne/NNNN", "depth.txt", "landmark_mapping.txt", "carla_sensor.csv",
-                           "*_camera_pose_log.csv"}) {
+                           "*.pcd", "calib.txt", "*_camera_pose_log.csv"}) {
     EXPECT_THAT(ErrorOf(folder), HasSubstr(told));
   }
 }

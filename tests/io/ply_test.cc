@@ -67,6 +67,37 @@ TEST(Ply, CubesAreClosedAndWoundOutwards) {
   EXPECT_EQ(mesh->triangles.size(), 108u);
 }
 
+TEST(Ply, AnOriginIsAddedInDoublePrecision) {
+  VoxelMap map(0.5);
+  map.Set({2, -1, 0}, map.model().clamp_max);
+  map.Set({3, -1, 0}, map.model().clamp_max);
+  const PlyLayer layer{&map, {}, 7, {1, 2, 3}};
+  const auto dut =
+      WithOriginAdded(SerializePly({&layer, 1}, PlyStyle::kPoints), {500'000.125, 4'100'000, -1});
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_THAT(*dut, HasSubstr("comment origin 500000.125,4100000,-1 added to x, y, z\n"
+                              "element vertex 2\nproperty double x\n"));
+  constexpr std::size_t kRow = 24 + 7;
+  const std::size_t begin = dut->find("end_header\n") + 11;
+  ASSERT_EQ(dut->size(), begin + 2 * kRow);
+  Eigen::Vector3d p;
+  std::memcpy(p.data(), dut->data() + begin, 24);
+  EXPECT_EQ(p, Eigen::Vector3d(500'001.375, 4'099'999.75, -0.75));
+  EXPECT_EQ((*dut)[begin + 24], 1);
+  std::memcpy(p.data(), dut->data() + begin + kRow, 24);
+  EXPECT_EQ(p, Eigen::Vector3d(500'001.875, 4'099'999.75, -0.75));
+}
+
+TEST(Ply, AnOriginIsAddedToNothingElse) {
+  const std::string ply = SerializePly({}, PlyStyle::kPoints);
+  EXPECT_TRUE(WithOriginAdded(ply, {1, 2, 3}).ok());
+  for (const std::string& bytes : {std::string(), ply.substr(0, 40), ply + "x", "x" + ply,
+                                   SerializePly({}, PlyStyle::kCubes)}) {
+    EXPECT_EQ(WithOriginAdded(bytes, {1, 2, 3}).status().code(),
+              absl::StatusCode::kInvalidArgument);
+  }
+}
+
 TEST(Ply, ObjectsHaveTheirColours) {
   EXPECT_EQ(PlyColorOf(kStaticLabel), PlyLayer().color);
   EXPECT_NE(PlyColorOf(1), PlyColorOf(2));

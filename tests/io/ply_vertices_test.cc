@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 
@@ -49,6 +52,58 @@ TEST_F(PlyVertices, TakesPropertiesByName) {
   EXPECT_THAT(*dut, ElementsAre(-2.5, 4294967295., 4.0001, 0));
 }
 
+// The header's two vertices as in TakesPropertiesByName.
+std::string Binary(bool big_endian) {
+  std::string bytes = kHeader;
+  bytes.replace(bytes.find("ascii"), 5, big_endian ? "binary_big_endian" : "binary_little_endian");
+  const auto put = [&](const auto value) {
+    std::string part(reinterpret_cast<const char*>(&value), sizeof value);
+    if (big_endian) std::reverse(part.begin(), part.end());
+    bytes += part;
+  };
+  put(1.0f);
+  put(std::uint8_t{255});
+  put(-2.5f);
+  put(std::uint32_t{4294967295});
+  put(3.0f);
+  put(std::uint8_t{0});
+  put(4.5f);
+  put(std::uint32_t{0});
+  return bytes;
+}
+
+TEST_F(PlyVertices, TakesBinaryOnes) {
+  for (const bool big_endian : {false, true}) {
+    const auto dut = Read(Binary(big_endian));
+    ASSERT_TRUE(dut.ok()) << dut.status();
+    EXPECT_THAT(*dut, ElementsAre(-2.5, 4294967295., 4.5, 0));
+  }
+}
+
+TEST_F(PlyVertices, RefusesBinaryOnesThatAreCutOff) {
+  const std::string whole = Binary(false);
+  for (std::size_t end = 0; end < whole.size(); ++end) {
+    EXPECT_FALSE(Read(whole.substr(0, end)).ok()) << end;
+  }
+  EXPECT_THAT(ErrorOf(whole.substr(0, whole.size() - 1)),
+              HasSubstr("25 bytes are left for 2 vertices of 13; the file is cut off"));
+  EXPECT_THAT(ErrorOf(whole + "x"), HasSubstr("1 bytes follow the last of 2"));
+  std::string nan = whole;
+  nan.replace(whole.size() - 8, 4, "\xff\xff\xff\x7f");
+  EXPECT_THAT(ErrorOf(nan), HasSubstr("vertex 1, property x: nan is not a finite number"));
+}
+
+TEST_F(PlyVertices, TakesNumbersThatAreNoneWhereAskedFor) {
+  constexpr PlyProperty kAny[] = {{"x", false, /*may_be_nan=*/true}};
+  std::vector<std::string> names;
+  const auto dut = ReadPlyVertices(
+      folder_.Write("cloud.ply", absl::StrCat(kHeader, "1 2 nan 4\n1 2 -inf 4\n")), kAny, &names);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_TRUE(std::isnan((*dut)[0]));
+  EXPECT_TRUE(std::isinf((*dut)[1]));
+  EXPECT_THAT(names, ElementsAre("y", "red", "x", "id"));
+}
+
 TEST_F(PlyVertices, Refusals) {
   EXPECT_TRUE(absl::IsNotFound(ReadPlyVertices(folder_ / "none.ply", kXId).status()));
   const std::string header = kHeader;
@@ -56,8 +111,8 @@ TEST_F(PlyVertices, Refusals) {
   EXPECT_THAT(ErrorOf("\n"), HasSubstr("line 1: no PLY file"));
   EXPECT_THAT(ErrorOf("ply"), HasSubstr("its first line does not end; the file is cut off"));
   EXPECT_THAT(ErrorOf("plywood\n"), HasSubstr("line 1: no PLY file"));
-  EXPECT_THAT(ErrorOf("ply\nformat binary_little_endian 1.0\n"),
-              HasSubstr("line 2: format binary_little_endian; only ascii 1.0 is read"));
+  EXPECT_THAT(ErrorOf("ply\nformat binary_middle_endian 1.0\n"),
+              HasSubstr("line 2: format binary_middle_endian; ascii, binary_little_endian and"));
   EXPECT_THAT(ErrorOf("ply\nelement vertex 0\nproperty float x\nproperty int id\nend_header\n"),
               HasSubstr("no line 'format ascii 1.0'"));
   EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\nproperty float x\n"), HasSubstr("of no element"));
@@ -69,7 +124,7 @@ TEST_F(PlyVertices, Refusals) {
   EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("no element vertex"));
   EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\nwhat is this\n"), HasSubstr("'what' in the header"));
   EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n"),
-              HasSubstr("line 5: the header ends without a property id"));
+              HasSubstr("line 5: the header ends without a property id; it has x"));
   EXPECT_THAT(ErrorOf(header.substr(0, 40)), HasSubstr("the header does not end"));
   EXPECT_THAT(ErrorOf(header + "1 2 3 4\n1 2 3\n"),
               HasSubstr("line 11: 3 numbers; the header has"));

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "absl/strings/str_replace.h"
+#include "clearway/io/world_origin.h"
+#include "io/pcd_example.h"
 #include "io/tum_rgbd_example.h"
 
 namespace clearway {
@@ -19,6 +21,43 @@ TEST_F(TumRgbd, IsToldByItsList) {
   EXPECT_FALSE(IsTumRgbd("/nowhere"));
   EXPECT_TRUE(OpenTumRgbd(folder_ / "").ok());
   EXPECT_TRUE(OpenTumRgbd(folder_ / "depth/..").ok());
+}
+
+TEST_F(TumRgbd, DepthsMayBeFloatsInMetres) {
+  folder_.Write("depth.txt", absl::StrReplaceAll(kTumDepth, {{"a.png", "a.pfm"}}));
+  std::string pfm = "Pf\n4 3\n-1\n";
+  // From the bottom up.
+  for (const float depth_m : {0.f, 0.f, 0.f, 2.f, 0.f, -1.f, 1.f, 0.f, 1.f, 0.f, 0.f, 0.f}) {
+    PutBytes(pfm, depth_m);
+  }
+  folder_.Write("depth/a.pfm", pfm);
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  const auto metres = dut->frames.read(0);
+  ASSERT_TRUE(metres.ok()) << metres.status();
+  folder_.Write("depth.txt", kTumDepth);
+  EXPECT_EQ(metres->points_S, Open()->frames.read(0)->points_S);
+  folder_.Write("depth/a.pfm", pfm.substr(0, 40));
+  EXPECT_THAT(std::string(dut->frames.read(0).status().message()), HasSubstr("a.pfm: "));
+}
+
+TEST_F(TumRgbd, FarTrajectoriesAreMovedExactly) {
+  const std::string far = absl::StrReplaceAll(kTumTrack, {{"0.1100 0 0", "500000.11 4100000 12"},
+                                                          {"0.0900 0 0", "500000.09 4100000 12"},
+                                                          {"0.1330 0 0", "500000.133 4100000 12"},
+                                                          {"0.1500 0 0", "500000.15 4100000 12"},
+                                                          {"0.9000 0 0", "500000.9 4100000 12"}});
+  const auto near = Open();
+  folder_.Write("groundtruth.txt", far);
+  EXPECT_TRUE(absl::IsInvalidArgument(WithOrigin(*Open(), std::nullopt).status()));
+  const auto dut = WithOrigin(*Open(), WorldOrigin{.position_m = {500'000, 4'100'000, 12}});
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(
+        (dut->frames.read(k)->T_W_S.translation - near->frames.read(k)->T_W_S.translation).norm(),
+        1e-9);
+    EXPECT_EQ(dut->frames.read(k)->points_S, near->frames.read(k)->points_S);
+  }
 }
 
 TEST_F(TumRgbd, PixelsArePointsOfTheOpticalFrame) {

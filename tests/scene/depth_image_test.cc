@@ -96,6 +96,38 @@ TEST(DepthImage, APixelIsAPointOfTheOpticalFrame) {
   EXPECT_EQ(frame.labels, (std::vector<ObjectId>{0, 0}));
 }
 
+TEST(DepthImage, DepthsInMetres) {
+  constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinityF = std::numeric_limits<float>::infinity();
+  DepthImage dut = Small();
+  dut.depth.clear();
+  // Column 3, row 1 and column 0, row 2 are measurements.
+  dut.depth_m = {0, -1, kNanF, kInfinityF, -kInfinityF, -0.0f, 0, 2.5f, 2.0f, 9, 9.5f, kNanF};
+  dut.max_depth_m = 8;
+  ASSERT_TRUE(Validate(dut, kAny).ok()) << Validate(dut, kAny);
+  Frame frame;
+  SetPoints(dut, frame);
+  const std::vector<Eigen::Vector3f> expected = {{1.875F, 0, 2.5F}, {-1.5F, 1, 2}};
+  EXPECT_EQ(frame.points_S, expected);
+}
+
+TEST(DepthImage, DepthsInMetresAreThoseInCounts) {
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    DepthImage counts = AnyImage(random);
+    counts.depth_unit_m = 1.0 / 1024;  // exact in single precision
+    DepthImage dut = counts;
+    dut.depth.clear();
+    for (const std::uint16_t depth : counts.depth) dut.depth_m.push_back(depth / 1024.0f);
+    ASSERT_TRUE(Validate(dut, kAny).ok());
+    Frame frame, expected;
+    SetPoints(dut, frame);
+    SetPoints(counts, expected);
+    EXPECT_EQ(frame.points_S, expected.points_S);
+    EXPECT_EQ(frame.labels, expected.labels);
+  }
+}
+
 TEST(DepthImage, MasksSayWhatPixelsBelongTo) {
   DepthImage dut = Small();
   dut.instance_mask = {0, 0, 1, 2, 0, 0, 1, 2, 0, 0, 0, 65'535};

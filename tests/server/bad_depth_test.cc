@@ -42,6 +42,15 @@ TEST_F(BadInput, DepthImages) {
        "frame.depth_image.depth_unit_m"},
       {"depth cut off", [](auto& i) { i.mutable_depth()->pop_back(); }, Code::kInvalidArgument,
        "frame.depth_image.depth"},
+      {"depths in two units", [](auto& i) { i.set_depth_m(std::string(320, 1)); },
+       Code::kInvalidArgument, "frame.depth_image.depth_unit_m"},
+      {"metres cut off",
+       [](auto& i) {
+         i.clear_depth();
+         i.clear_depth_unit_m();
+         i.set_depth_m(std::string(319, 1));
+       },
+       Code::kInvalidArgument, "frame.depth_image.depth_m"},
       {"mask cut off", [](auto& i) { i.mutable_instance_mask()->pop_back(); },
        Code::kInvalidArgument, "frame.depth_image.instance_mask"},
       {"mask's value", [](auto& i) { i.mutable_instance_mask()->back() = 2; },

@@ -49,6 +49,7 @@ void ExpectEqual(const DepthImage& a, const DepthImage& b) {
   EXPECT_EQ(a.height, b.height);
   EXPECT_EQ(a.depth, b.depth);
   EXPECT_EQ(a.depth_unit_m, b.depth_unit_m);
+  EXPECT_EQ(a.depth_m, b.depth_m);
   EXPECT_EQ(a.fx, b.fx);
   EXPECT_EQ(a.fy, b.fy);
   EXPECT_EQ(a.cx, b.cx);
@@ -71,6 +72,45 @@ TEST(DepthWire, ComesBackThroughBytes) {
   const auto dut = ReadDepthImage(parsed, kAny);
   ASSERT_TRUE(dut.ok()) << dut.status();
   ExpectEqual(*dut, FullImage());
+}
+
+// In metres; the last pixels have no measurement.
+DepthImage MetreImage() {
+  DepthImage image = FullImage();
+  image.depth.clear();
+  image.depth_unit_m = DepthImage().depth_unit_m;
+  for (int i = 0; i < 18; ++i) image.depth_m.push_back(0.1f * static_cast<float>(i));
+  image.depth_m.insert(image.depth_m.end(), {-1, std::numeric_limits<float>::infinity()});
+  return image;
+}
+
+TEST(DepthWire, MetresComeBackThroughBytes) {
+  v1::DepthImage proto, parsed;
+  Write(MetreImage(), &proto);
+  EXPECT_EQ(proto.depth_m().size(), 80u);
+  EXPECT_FALSE(proto.has_depth_unit_m());
+  EXPECT_TRUE(proto.depth().empty());
+  EXPECT_EQ(proto.depth_m().substr(4, 4), std::string("\xcd\xcc\xcc\x3d"));
+  ASSERT_TRUE(parsed.ParseFromString(proto.SerializeAsString()));
+  const auto dut = ReadDepthImage(parsed, kAny);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ExpectEqual(*dut, MetreImage());
+}
+
+TEST(DepthWire, RefusesMetresThatDisagree) {
+  v1::DepthImage good;
+  Write(MetreImage(), &good);
+  const auto field = [&](const std::function<void(v1::DepthImage&)>& spoil) {
+    v1::DepthImage proto = good;
+    spoil(proto);
+    const auto dut = ReadDepthImage(proto, kAny);
+    EXPECT_TRUE(absl::IsInvalidArgument(dut.status())) << dut.status();
+    return FieldOf(dut.status());
+  };
+  EXPECT_EQ(field([](auto& i) { i.mutable_depth_m()->pop_back(); }), "depth_image.depth_m");
+  EXPECT_EQ(field([](auto& i) { i.set_depth(std::string(40, 1)); }), "depth_image.depth_m");
+  EXPECT_EQ(field([](auto& i) { i.set_depth_unit_m(0.001); }), "depth_image.depth_unit_m");
+  EXPECT_EQ(field([](auto& i) { i.clear_depth_m(); }), "depth_image.depth_unit_m");
 }
 
 TEST(DepthWire, NumbersAreLittleEndian) {

@@ -1,6 +1,7 @@
 // Where frames come from: a folder, a recording, the simulator.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -18,6 +19,9 @@ struct FrameSource {
   // How far the sensor's poses are off, on average, as SceneParams takes it; 0 if they are as good
   // as the scans, or nothing is known of it.
   double sensor_pose_error_m = 0, sensor_pose_error_rad = 0;
+  // Where the origin of W lies in the source's own world; zero unless it was moved
+  // (world_origin.h).
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   std::function<absl::StatusOr<Frame>(std::size_t index)> read;
 };
 

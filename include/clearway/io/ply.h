@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "clearway/geometry/pose.h"
 #include "clearway/map/voxel_map.h"
 #include "clearway/scene/occupancy.h"
@@ -33,6 +35,11 @@ std::array<std::uint8_t, 3> PlyColorOf(ObjectId object);
 // Binary little endian PLY, in W: vertices with x, y, z (float, metres), red, green, blue (uchar)
 // and object (int); faces of four vertices, counter-clockwise seen from outside.
 std::string SerializePly(std::span<const PlyLayer> layers, PlyStyle style);
+
+// What SerializePly made of points, with the origin added to each of them: x, y, z become doubles,
+// so that the coordinates of UTM keep their decimals; a comment names the origin. INVALID_ARGUMENT
+// for other bytes.
+absl::StatusOr<std::string> WithOriginAdded(std::string_view ply, const Eigen::Vector3d& origin_m);
 
 // UNAVAILABLE if the file cannot be written.
 absl::Status WritePly(const std::filesystem::path& path, const VoxelMap& map, PlyStyle style);

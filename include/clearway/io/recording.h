@@ -1,6 +1,7 @@
 // Recordings: frames in one SQLite file. The format is in docs/formats.md.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -19,6 +20,8 @@ inline constexpr int kRecordingVersion = 1;
 struct RecordingOptions {
   std::string description;    // for people: what was recorded
   double resolution_m = 0.1;  // voxel size that suits the data; above 0
+  // As FrameSource::origin_m; finite.
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   int compression_level = 3;  // zstd's, 1 to 19
   bool overwrite = false;     // replace an existing file; else it is an error
 };
@@ -62,6 +65,7 @@ struct RecordingInfo {
   };
   std::string description;
   double resolution_m = 0;
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  // as FrameSource's
   std::int64_t frames = 0;
   std::int64_t points = 0;
   Time first_stamp;  // the lowest and the highest; epoch if there is no frame

@@ -37,6 +37,7 @@ class SurfaceJudge {
   MetSurfaces met_;
   ObjectFitter objects_;
   SolidScore solids_;
+  std::size_t added_ = 0;  // frames
 };
 
 }  // namespace clearway

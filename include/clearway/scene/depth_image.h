@@ -18,6 +18,8 @@ struct DepthImage {
   // Row by row from the top left, in counts along z; 0: no measurement.
   std::vector<std::uint16_t> depth;
   double depth_unit_m = 0.001;  // of a count
+  // Or, instead of `depth`, metres along z; NaN, infinity, 0 and what is below: no measurement.
+  std::vector<float> depth_m;
 
   // The pinhole, in pixels; the middle of the top left pixel is (0, 0). Lenses are undistorted.
   double fx = 0, fy = 0, cx = 0, cy = 0;
@@ -41,13 +43,13 @@ std::uint64_t UsedPixelCount(const DepthImage& image);
 // not above 0, a stride of 0, more than 65,536 labels or one below -1.
 absl::Status ValidateCamera(const DepthImage& image, std::size_t max_points);
 
-// All of it: also arrays that do not have a value per pixel, labels without a mask, and a mask's
-// value without a label, be its pixel used or not.
+// All of it: also depths in both units or none, arrays that do not have a value per pixel, labels
+// without a mask, and a mask's value without a label, be its pixel used or not.
 absl::Status Validate(const DepthImage& image, std::size_t max_points);
 
 // Makes the used pixels that have a depth the frame's points, row by row, instead of what points,
-// labels, no-return marks and origins it had: z = depth * depth_unit_m, x = (column - cx) / fx * z,
-// y = (row - cy) / fy * z, computed in double and kept as float. The image is valid.
+// labels, no-return marks and origins it had: z = depth * depth_unit_m or depth_m, x = (column -
+// cx) / fx * z, y = (row - cy) / fy * z, computed in double and kept as float. The image is valid.
 void SetPoints(const DepthImage& image, Frame& frame);
 
 }  // namespace clearway

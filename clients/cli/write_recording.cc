@@ -1,0 +1,54 @@
+#include "cli/write_recording.h"
+
+#include "absl/strings/str_cat.h"
+#include "clearway/io/recording.h"
+#include "cli/progress.h"
+#include "cli/text.h"
+
+namespace clearway::cli {
+namespace {
+
+absl::StatusOr<Written> WriteAll(const FrameSource& source, FrameRange range,
+                                 RecordingWriter& writer, const Terminal& terminal) {
+  ProgressBar progress(terminal.err, terminal.err_is_terminal, range.size());
+  Written written;
+  absl::Status status;
+  for (std::size_t k = range.first; k < range.end; ++k) {
+    const auto frame = source.read(k);
+    status = frame.ok() ? writer.Append(*frame) : frame.status();
+    if (!status.ok()) break;
+    ++written.frames;
+    written.points += frame->points_S.size();
+    progress.Update(written.frames, written.points);
+  }
+  progress.Finish();
+  if (status.ok()) status = writer.Close();
+  if (!status.ok()) return status;
+  return written;
+}
+
+}  // namespace
+
+absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange range,
+                                       const std::string& path, bool overwrite,
+                                       const Terminal& terminal) {
+  RecordingOptions options;
+  options.description = source.description;
+  options.resolution_m = source.resolution_m;
+  options.origin_m = source.origin_m;
+  options.overwrite = overwrite;
+  auto writer = RecordingWriter::Create(path, options);
+  if (absl::IsAlreadyExists(writer.status())) {
+    return absl::AlreadyExistsError(absl::StrCat(path, " exists; --force replaces it"));
+  }
+  if (!writer.ok()) return writer.status();
+  return WriteAll(source, range, **writer, terminal);
+}
+
+void PrintWritten(std::ostream& out, const std::string& path, const Written& written) {
+  out << "wrote " << path << ": " << Plural(written.frames, "frame") << ", "
+      << Plural(written.points, "point") << "\n"
+      << "send it to a server with: clearway replay " << ShellQuoted(path) << "\n";
+}
+
+}  // namespace clearway::cli

@@ -1,0 +1,49 @@
+// Which pose belongs to which point cloud, by the clouds' names.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "clearway/base/time.h"
+
+namespace clearway {
+
+// Names in their natural order: runs of digits compare as numbers, so that "scan_9" comes before
+// "scan_10".
+bool NaturallyBefore(const std::string& a, const std::string& b);
+
+// What the names of a folder's clouds have in common.
+enum class CloudNaming {
+  kStamps,   // all end in a stamp, behind the same text
+  kNumbers,  // all end in a whole number, likewise
+  kOther
+};
+
+struct NamedCloud {
+  std::filesystem::path path;
+  std::int64_t number = 0;  // kNumbers
+  Time stamp = Time();      // kStamps
+};
+
+struct NamedClouds {
+  CloudNaming naming = CloudNaming::kOther;
+  std::vector<NamedCloud> clouds;  // ascending stamps or numbers, else in the natural order
+};
+
+// A stamp is a number with a decimal point, in seconds, or a whole number of 10, 13, 16 or 19
+// digits, in seconds, milli-, micro- or nanoseconds. INVALID_ARGUMENT if two clouds have the same
+// stamp or number.
+absl::StatusOr<NamedClouds> NameClouds(std::vector<std::filesystem::path> paths);
+
+// The row of a table of `rows` poses that each cloud belongs to, numbers and other names alike;
+// none for those that the table has no row for. INVALID_ARGUMENT, naming the folder, if that is not
+// clear.
+absl::StatusOr<std::vector<std::optional<std::size_t>>> RowsOf(const NamedClouds& clouds,
+                                                               std::size_t rows,
+                                                               const std::string& folder);
+
+}  // namespace clearway
