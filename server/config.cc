@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +12,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 
 namespace clearway {
 namespace {
@@ -61,11 +61,11 @@ absl::Status CollectToml(const toml::table& table, const std::string& prefix, Va
 }
 
 absl::Status ReadFile(const std::string& path, Values& values) {
-  if (std::filesystem::is_directory(path)) {
-    return absl::InvalidArgumentError(absl::StrCat(path, ": is a folder"));
-  }
+  constexpr std::uint64_t kMaxBytes = 16'000'000;
+  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxBytes);
+  if (!text.ok()) return text.status();
   try {
-    return CollectToml(toml::parse_file(path), "", values);
+    return CollectToml(toml::parse(*text, path), "", values);
   } catch (const toml::parse_error& error) {
     return absl::InvalidArgumentError(
         absl::StrCat(path, ":", error.source().begin.line, ": ", std::string(error.description())));

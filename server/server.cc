@@ -8,13 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "server/core.h"
 #include "server/pollers.h"
 #include "server/services.h"
@@ -28,13 +27,13 @@ constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may
 constexpr int kSpareThreads = 64;                       // of gRPC's own, beyond one per call
 
 absl::StatusOr<std::string> ReadPem(const char* key, const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream pem;
-  pem << file.rdbuf();
-  if (!file || pem.str().empty()) {
-    return absl::NotFoundError(absl::StrCat(key, ": cannot read ", path));
+  constexpr std::uint64_t kMaxBytes = 16'000'000;
+  absl::StatusOr<std::string> pem = ReadWholeFile(path, kMaxBytes);
+  if (!pem.ok()) {
+    return absl::Status(pem.status().code(), absl::StrCat(key, ": ", pem.status().message()));
   }
-  return pem.str();
+  if (pem->empty()) return absl::InvalidArgumentError(absl::StrCat(key, ": ", path, ": is empty"));
+  return pem;
 }
 
 absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> CredentialsOf(const ServerConfig& config) {

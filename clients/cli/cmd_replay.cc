@@ -8,6 +8,7 @@
 #include "cli/ack_tally.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/open_source.h"
 #include "cli/progress.h"
@@ -79,7 +80,7 @@ absl::Status SendAll(const FrameSource& source, std::size_t first, std::size_t e
   return absl::OkStatus();
 }
 
-Json AsJson(const AckTally::Counts& counts, double seconds) {
+Json AsJson(const AckTally::Counts& counts, const LeftOut& left_out, double seconds) {
   Json json = {{"frames", counts.answered},
                {"applied", counts.answered - counts.refused},
                {"refused", counts.refused},
@@ -87,7 +88,8 @@ Json AsJson(const AckTally::Counts& counts, double seconds) {
                {"points", counts.points},
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
-               {"elapsed_s", seconds}};
+               {"elapsed_s", seconds},
+               {"left_out", ToJson(left_out)}};
   if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
   return json;
 }
@@ -167,8 +169,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   progress.Finish();
   if (!status.ok()) return status;
 
+  if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
-    Print(terminal.out, AsJson(counts, progress.state().elapsed_s));
+    Print(terminal.out, AsJson(counts, *source->left_out, progress.state().elapsed_s));
   } else {
     PrintText(terminal.out, counts);
   }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/recording.h"
 #include "clearway/sim/scenarios.h"
 #include "cli/commands.h"
@@ -65,7 +66,22 @@ std::string NamesInLines() {
   return lines;
 }
 
+// Names that people, and other programs, take for another kind of file.
+absl::Status CheckName(const std::string& out) {
+  const std::string extension = LowerExtension(out);
+  if (HasMapExtension(out) || extension == ".ply" || extension == ".pcd") {
+    return UsageError(absl::StrCat("--out: '", out, "' is the name of a ",
+                                   HasMapExtension(out) ? "map" : "point cloud",
+                                   "; name a recording, as drive.cwr"));
+  }
+  if (out.starts_with("sim:")) {
+    return UsageError(absl::StrCat("--out: '", out, "' names a simulation, not a file"));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  if (auto status = CheckName(flags.out); !status.ok()) return status;
   const auto simulation = OpenSimulation(flags.scenario, flags.source);
   if (!simulation.ok()) return simulation.status();
   const FrameSource source = simulation->Frames();

@@ -1,5 +1,6 @@
 #include "cli/evaluation.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 
 namespace clearway::cli {
 namespace {
@@ -113,6 +114,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
                {"truth", source.truth.description},
                {"frames", source.frames.frame_count},
                {"points", ToJson(found.points)},
+               {"left_out", cli::ToJson(*source.frames.left_out)},
                {"objects", Json::array()}};
   for (const auto& [id, of_object] : found.predictions) {
     Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", ToJson(of_object)}};

@@ -5,6 +5,7 @@
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/table.h"
 #include "cli/file_info.h"
+#include "cli/left_out_text.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
@@ -106,6 +107,10 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
       Grouped(count->scans), " with points\n", "points      ", Grouped(count->points), "\n",
       "sensor      moves ", Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames),
       "\n", "objects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  if (!folder->frames.left_out->Empty()) {
+    absl::StrAppend(&info.text, "left out    ",
+                    LeftOutText(*folder->frames.left_out, "            "));
+  }
   info.json = {{"kind", "lidar_folder"},
                {"path", path},
                {"description", folder->frames.description},
@@ -116,6 +121,7 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
                {"last_stamp_ns", ToNanoseconds(last)},
                {"sensor_pose_error_m", folder->frames.sensor_pose_error_m},
                {"sensor_pose_error_rad", folder->frames.sensor_pose_error_rad},
+               {"left_out", ToJson(*folder->frames.left_out)},
                {"objects", JsonOf(tracks)}};
   return info;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
 
 namespace clearway {
 namespace {

@@ -1,7 +1,6 @@
 #include "io/ply_vertices.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,8 +9,9 @@
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
-#include "io/word_lines.h"
+#include "clearway/base/file.h"
+#include "io/parse_number.h"
+#include "io/text_lines.h"
 
 namespace clearway {
 namespace {
@@ -21,13 +21,6 @@ constexpr std::uint64_t kMaxVertices = 20'000'000;
 constexpr std::string_view kScalars[] = {"char",  "uchar",  "short",   "ushort", "int",   "uint",
                                          "float", "double", "int8",    "uint8",  "int16", "uint16",
                                          "int32", "uint32", "float32", "float64"};
-
-template <class T>
-bool ParseWhole(std::string_view text, T& value) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
-}
 
 // What of a bad line is worth showing.
 std::string Excerpt(std::string_view text) {
@@ -153,14 +146,13 @@ Header TakeHeader(Reader& reader) {
 
 double TakeNumber(const PlyProperty& property, std::string_view word, Reader& reader) {
   double value = 0;
-  const bool is_number = ParseWhole(word, value) && std::isfinite(value);
+  const bool is_number = ParseNumber(word, value);
   const bool fits =
       !property.is_index || (value >= 0 && value <= std::numeric_limits<std::uint32_t>::max() &&
                              value == std::floor(value));
   if (!is_number || !fits) {
-    reader.Fail(
-        absl::StrCat("property ", property.name, ": '", Excerpt(word), "' is not ",
-                     property.is_index ? "an integer from 0 to 4294967295" : "a finite number"));
+    reader.Fail(absl::StrCat("property ", property.name, ": '", Excerpt(word), "' is not ",
+                             property.is_index ? "an integer from 0 to 4294967295" : "a number"));
   }
   return value;
 }
@@ -181,12 +173,16 @@ Places PlacesOf(std::span<const PlyProperty> wanted, const Header& header, Reade
   return places;
 }
 
-void TakeVertex(std::span<const PlyProperty> wanted, const Places& places, Reader& reader,
-                double* row) {
+void TakeVertex(std::span<const PlyProperty> wanted, const Header& header, const Places& places,
+                Reader& reader, double* row) {
   std::size_t count = 0;
   for (std::string_view word = reader.NextWord(); !word.empty(); word = reader.NextWord()) {
     const auto place = count < places.size() ? places[count] : std::nullopt;
-    if (place) row[*place] = TakeNumber(wanted[*place], word, reader);
+    if (place) {
+      row[*place] = TakeNumber(wanted[*place], word, reader);
+    } else if (count < places.size()) {
+      TakeNumber({header.properties[count].c_str()}, word, reader);
+    }
     ++count;
   }
   if (count != places.size()) {
@@ -213,7 +209,7 @@ absl::StatusOr<std::vector<double>> ReadPlyVertices(const std::filesystem::path&
   std::vector<double> values(count * properties.size());
   std::uint64_t row = 0;
   for (; row < count && reader.NextLine(); ++row) {
-    TakeVertex(properties, places, reader, values.data() + row * properties.size());
+    TakeVertex(properties, header, places, reader, values.data() + row * properties.size());
   }
   if (row < count) {
     reader.FailCutOff(absl::StrCat("it has ", row, " of ", count, " vertices"));

@@ -166,7 +166,7 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& task, std::shared_ptr<const St
   }
   if (work.IsThere()) {
     outcome.status = PlanStatus::kFound;
-    found({{task.start_time}, {task.start}, {}});
+    found({{task.start_time}, {NormalizedConfiguration(task.space, task.start)}, {}});
     return outcome;
   }
   const ob::PlannerTerminationCondition until(

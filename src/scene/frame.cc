@@ -5,11 +5,11 @@
 #include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/geometry/unit_quaternion.h"
 
 namespace clearway {
 namespace {
-
-constexpr double kUnitTolerance = 1e-4;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
@@ -96,8 +96,9 @@ absl::Status CheckMotion(const std::string& field, const ObjectMotion& motion, c
     return status;
   }
   if (const double turn = Log(motion.H_W).angular.norm(); turn > kMaxTurn_rad) {
-    return Invalid(motion_field, absl::StrCat("turns by ", turn, " rad in one step; the limit is ",
-                                              kMaxTurn_rad, " rad (its direction is ambiguous)"));
+    return Invalid(motion_field,
+                   absl::StrCat("turns by ", NumberText(turn), " rad in one step; the limit is ",
+                                NumberText(kMaxTurn_rad), " rad (its direction is ambiguous)"));
   }
   const std::string from_field = absl::StrCat(field, ".from_stamp_ns");
   if (auto status = ValidateStamp(from_field, motion.from); !status.ok()) return status;
@@ -121,17 +122,14 @@ absl::Status ValidatePose(const std::string& field, const Pose& pose, double max
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) {
     return Invalid(field, "is not finite");
   }
-  const double norm = pose.rotation.norm();
-  if (std::abs(norm - 1.0) > kUnitTolerance) {
-    return Invalid(absl::StrCat(field, ".rotation"),
-                   absl::StrCat("has length ", norm, "; a unit quaternion is needed, to within ",
-                                kUnitTolerance));
+  if (!IsNearlyUnit(pose.rotation)) {
+    return Invalid(absl::StrCat(field, ".rotation"), NotUnitText(pose.rotation));
   }
   const double largest_m = pose.translation.cwiseAbs().maxCoeff();
   if (largest_m > max_coordinate_m) {
-    return Invalid(
-        absl::StrCat(field, ".translation_m"),
-        absl::StrCat("reaches ", largest_m, " m; the limit is ", max_coordinate_m, " m"));
+    return Invalid(absl::StrCat(field, ".translation_m"),
+                   absl::StrCat("reaches ", NumberText(largest_m), " m; the limit is ",
+                                NumberText(max_coordinate_m), " m"));
   }
   return absl::OkStatus();
 }

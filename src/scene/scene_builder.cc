@@ -4,10 +4,13 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/map/resolution.h"
 #include "scene/dynamic_hits.h"
 #include "scene/frame_objects.h"
 #include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
+#include "scene/normalized_frame.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
 #include "scene/second_look.h"
@@ -56,9 +59,9 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
   for (const auto& [id, object] : objects) {
     const double reach_m = object->history.back().T_W_O.translation.cwiseAbs().maxCoeff();
     if (reach_m <= limits.max_coordinate_m) continue;
-    return absl::InvalidArgumentError(absl::StrCat(FieldThatPlaces(frame, *object), ": object ", id,
-                                                   " would be at ", reach_m, " m; the limit is ",
-                                                   limits.max_coordinate_m, " m"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        FieldThatPlaces(frame, *object), ": object ", id, " would be at ", NumberText(reach_m),
+        " m; the limit is ", NumberText(limits.max_coordinate_m), " m"));
   }
   return absl::OkStatus();
 }
@@ -87,6 +90,7 @@ SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits,
 
 absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame) {
   if (absl::Status status = Validate(frame, limits_); !status.ok()) return status;
+  if (const auto renormalized = Renormalized(frame)) return Apply(*renormalized);
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
   if (!scene_.params.MendsSensorPoses()) return ApplyInScene(frame);
 
@@ -202,10 +206,10 @@ ScenePtr SceneBuilder::Publish() {
 
 absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
   const double resolution_m = scene_.static_map_W.grid().resolution_m();
-  if (std::abs(prior_W.grid().resolution_m() - resolution_m) > 1e-9) {
+  if (!SameResolution(prior_W.grid().resolution_m(), resolution_m)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("map: has voxels of ", prior_W.grid().resolution_m(),
-                     " m; the scene has voxels of ", resolution_m, " m"));
+        absl::StrCat("map: has voxels of ", NumberText(prior_W.grid().resolution_m()),
+                     " m; the scene has voxels of ", NumberText(resolution_m), " m"));
   }
   const OccupancyModel& model = scene_.static_map_W.model();
   prior_W.blocks().ForEach([&](BlockKey key, const VoxelBlock& prior) {

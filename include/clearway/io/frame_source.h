@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "clearway/io/left_out.h"
 #include "clearway/scene/frame.h"
 
 namespace clearway {
@@ -18,6 +20,8 @@ struct FrameSource {
   // How far the sensor's poses are off, on average, as SceneParams takes it; 0 if they are as good
   // as the scans, or nothing is known of it.
   double sensor_pose_error_m = 0, sensor_pose_error_rad = 0;
+  // What of the files cannot be used; complete once every frame was read. Copies share it.
+  std::shared_ptr<LeftOut> left_out = std::make_shared<LeftOut>();
   std::function<absl::StatusOr<Frame>(std::size_t index)> read;
 };
 
