@@ -3,13 +3,13 @@
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "server/environment.h"
 #include "server/listen_address.h"
 
@@ -51,11 +51,11 @@ absl::Status CollectToml(const toml::table& table, const std::string& prefix, Va
 }
 
 absl::Status ReadFile(const std::string& path, Values& values) {
-  if (std::filesystem::is_directory(path)) {
-    return absl::InvalidArgumentError(absl::StrCat(path, ": is a folder"));
-  }
+  constexpr std::uint64_t kMaxBytes = 16'000'000;
+  const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxBytes);
+  if (!text.ok()) return text.status();
   try {
-    return CollectToml(toml::parse_file(path), "", values);
+    return CollectToml(toml::parse(*text, path), "", values);
   } catch (const toml::parse_error& error) {
     return absl::InvalidArgumentError(
         absl::StrCat(path, ":", error.source().begin.line, ": ", std::string(error.description())));

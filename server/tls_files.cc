@@ -1,24 +1,20 @@
 #include "server/tls_files.h"
 
-#include <fcntl.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 
 namespace clearway {
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::uint64_t kMaxBytes = 1 << 20;
 
 template <class T, void (*free)(T*)>
 struct Deleter {
@@ -49,26 +45,11 @@ std::string Reason() {
 }
 
 absl::StatusOr<std::string> ReadPem(const char* field, const std::string& path) {
-  const auto fault = [&](int error) {
-    return absl::Status(absl::ErrnoToStatusCode(error),
-                        absl::StrCat(field, ": cannot read ", path, ": ", std::strerror(error)));
-  };
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return fault(errno);
-  std::string text(kMaxBytes + 1, '\0');
-  struct stat info {};
-  ssize_t size = -1;
-  const bool regular = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
-  if (regular) size = pread(fd, text.data(), text.size(), 0);
-  const int error = errno;
-  close(fd);
-  if (!regular) return Bad(field, path, S_ISDIR(info.st_mode) ? "is a folder" : "is not a file");
-  if (size < 0) return fault(error);
-  text.resize(static_cast<std::size_t>(size));
-  if (text.empty()) return Bad(field, path, "is empty");
-  if (text.size() > kMaxBytes) {
-    return Bad(field, path, absl::StrCat("has more than ", kMaxBytes, " bytes"));
+  absl::StatusOr<std::string> text = ReadWholeFile(path, kMaxBytes);
+  if (!text.ok()) {
+    return absl::Status(text.status().code(), absl::StrCat(field, ": ", text.status().message()));
   }
+  if (text->empty()) return Bad(field, path, "is empty");
   return text;
 }
 

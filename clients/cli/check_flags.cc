@@ -1,10 +1,10 @@
 #include "cli/check_flags.h"
 
-#include <fstream>
-#include <iterator>
+#include <istream>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "cli/json_file.h"
 #include "cli/message.h"
 
 namespace clearway::cli {
@@ -105,13 +105,10 @@ void AddCheckFlags(CLI::App* command, CheckFlags* flags) {
 absl::StatusOr<std::vector<TimedBase>> StatesOf(const CheckFlags& flags, std::istream& in) {
   std::vector<TimedBase> states = flags.states;
   if (!flags.states_file.empty()) {
-    std::ifstream file;
-    if (flags.states_file != "-") {
-      file.open(flags.states_file);
-      if (!file) return absl::NotFoundError(flags.states_file + ": cannot be opened");
-    }
     const bool standard = flags.states_file == "-";
-    auto read = ReadStates(standard ? "stdin" : flags.states_file, standard ? in : file);
+    const auto text = standard ? ReadStream("stdin", in) : ReadTextFile(flags.states_file, "table");
+    if (!text.ok()) return text.status();
+    auto read = ReadStates(standard ? "stdin" : flags.states_file, *text);
     if (!read.ok()) return read.status();
     states.insert(states.end(), read->begin(), read->end());
   }

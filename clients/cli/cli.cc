@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/base/number_text.h"
 #include "cli/commands.h"
 #include "cli/message.h"
 #include "cli/text.h"
@@ -94,7 +95,7 @@ CLI::Validator Between(double low, double high) {
   const auto check = [low, high](const std::string& text) {
     const auto number = ParseFinite(text);
     if (number.ok() && *number >= low && *number <= high) return std::string();
-    return absl::StrFormat("%s is not between %g and %g", text, low, high);
+    return absl::StrCat(text, " is not between ", NumberText(low), " and ", NumberText(high));
   };
   return CLI::Validator(check, "");
 }

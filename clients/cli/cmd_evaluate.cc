@@ -13,6 +13,7 @@
 #include "cli/evaluation.h"
 #include "cli/evaluation_html.h"
 #include "cli/frame_range.h"
+#include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/progress.h"
 #include "cli/told_frames.h"
@@ -175,6 +176,8 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
   if (!flags.html.empty()) {
     if (auto status = WriteHtml(flags.html, *source, *found); !status.ok()) return status;
   }
+  const LeftOut& left_out = *source->frames.left_out;
+  if (!left_out.Empty()) terminal.err << "warning: " << LeftOutText(left_out);
   flags.json ? PrintJson(terminal.out, *source, *found) : PrintText(terminal.out, *source, *found);
   return absl::OkStatus();
 }

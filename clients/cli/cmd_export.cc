@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/ply.h"
 #include "cli/commands.h"
 #include "cli/export_target.h"
@@ -35,7 +36,7 @@ struct Flags {
 // The format that was asked for, or that the file's extension names.
 absl::StatusOr<MapFormat> FormatOf(const Flags& flags) {
   if (flags.format) return *flags.format;
-  const std::string extension = std::filesystem::path(flags.out).extension().string();
+  const std::string extension = LowerExtension(flags.out);
   auto format = ParseMapFormat(extension.empty() ? "" : extension.substr(1));
   if (!format.ok()) {
     return UsageError("give --format, or an --out that ends in .bt, .ot or .ply");

@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 #include "cli/open_source.h"
 #include "cli/write_recording.h"
 
@@ -23,19 +24,22 @@ struct Flags {
 };
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  if (auto status = CheckRecordingName(flags.out); !status.ok()) return status;
   const auto source = OpenSource(flags.spec, flags.source);
   if (!source.ok()) return source.status();
   const auto range = FramesIn(flags.range, flags.spec, *source);
   if (!range.ok()) return range.status();
   const auto written = WriteRecording(*source, *range, flags.out, flags.force, terminal);
   if (!written.ok()) return written.status();
+  if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
     Print(terminal.out, {{"file", flags.out},
                          {"source", source->description},
                          {"frames", written->frames},
                          {"points", written->points},
                          {"resolution_m", source->resolution_m},
-                         {"origin_m", ToJson(source->origin_m)}});
+                         {"origin_m", ToJson(source->origin_m)},
+                         {"left_out", ToJson(*source->left_out)}});
   } else {
     PrintWritten(terminal.out, flags.out, *written);
   }

@@ -1,15 +1,17 @@
 // clearway replay: frames of any source to a server.
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/client/frame_sender.h"
+#include "clearway/map/resolution.h"
 #include "cli/ack_tally.h"
 #include "cli/commands.h"
 #include "cli/frame_range.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/open_source.h"
 #include "cli/progress.h"
@@ -110,7 +112,8 @@ Json AsJson(const AckTally::Counts& counts, const FrameSource& source, std::uint
                {"version", counts.last.version},
                {"stamp_ns", ToNanoseconds(counts.last.stamp)},
                {"origin_m", ToJson(source.origin_m)},
-               {"elapsed_s", seconds}};
+               {"elapsed_s", seconds},
+               {"left_out", ToJson(*source.left_out)}};
   json["reports"] = counts.objects.AsJson();
   if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
   return json;
@@ -140,9 +143,10 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
 
 // Not an error: coarser maps are often wanted.
 void NoteResolution(const FrameSource& source, const SceneParams& params, std::ostream& err) {
-  if (std::abs(source.resolution_m - params.resolution_m) < 1e-9) return;
-  err << "note: these frames suit voxels of " << source.resolution_m << " m; the server has "
-      << params.resolution_m << " m (clearway-server --scene-resolution-m)\n";
+  if (SameResolution(source.resolution_m, params.resolution_m)) return;
+  err << "note: these frames suit voxels of " << NumberText(source.resolution_m)
+      << " m; the server has " << NumberText(params.resolution_m)
+      << " m (clearway-server --scene-resolution-m)\n";
 }
 
 // Not an error either: it costs time to register scans.
@@ -200,6 +204,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   progress.Finish();
   if (!status.ok()) return status;
 
+  if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
     Print(terminal.out, AsJson(counts, *source, reconnects, progress.state().elapsed_s));
   } else {

@@ -39,6 +39,7 @@ std::string NamesInLines() {
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
+  if (auto status = CheckRecordingName(flags.out); !status.ok()) return status;
   const auto simulation = OpenSimulation(flags.scenario, flags.source);
   if (!simulation.ok()) return simulation.status();
   const FrameSource source = simulation->Frames();

@@ -14,6 +14,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/base/file.h"
 #include "clearway/report/object_sheet.h"
 #include "clearway/report/top_view.h"
 #include "cli/svg_plot.h"
@@ -72,10 +73,11 @@ Plot PlotOfGrowth(const TrueSource& source, const Evaluation& found) {
 absl::StatusOr<std::string> ImageOf(const std::string& title, const std::string& scratch_file,
                                     const std::function<absl::Status(const std::string&)>& write) {
   if (absl::Status status = write(scratch_file); !status.ok()) return status;
-  std::ifstream in(scratch_file, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  constexpr std::uint64_t kMaxBytes = 100'000'000;
+  const absl::StatusOr<std::string> bytes = ReadWholeFile(scratch_file, kMaxBytes);
+  if (!bytes.ok()) return bytes.status();
   return absl::StrCat("<img alt='", title, "' style='max-width: 100%' src='data:image/png;base64,",
-                      absl::Base64Escape(bytes), "'>\n");
+                      absl::Base64Escape(*bytes), "'>\n");
 }
 
 // What it is called in the scene: one that is out of sight is where it is thought to be.
@@ -146,9 +148,8 @@ absl::Status CheckPage(const std::string& html_file) {
   if (!std::filesystem::exists(path, ignored)) return absl::OkStatus();
   if (std::filesystem::is_directory(path, ignored)) return refused(": is a folder; name a file");
   if (!std::filesystem::is_regular_file(path, ignored)) return refused(": is no regular file");
-  std::string begin(kBegin.size(), ' ');
-  std::ifstream(path, std::ios::binary).read(begin.data(), std::ssize(begin));
-  if (begin == kBegin) return absl::OkStatus();
+  const absl::StatusOr<std::string> begin = ReadFileStart(path, kBegin.size());
+  if (begin.ok() && *begin == kBegin) return absl::OkStatus();
   return refused(" exists and is no page; name another file");
 }
 

@@ -1,5 +1,6 @@
 #include "cli/evaluation.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 
 namespace clearway::cli {
 namespace {
@@ -114,6 +115,7 @@ void PrintJson(std::ostream& out, const TrueSource& source, const Evaluation& fo
                {"frames", found.frames},
                {"points", ToJson(found.points)},
                {"reports", found.notes.AsJson()},
+               {"left_out", cli::ToJson(*source.frames.left_out)},
                {"objects", Json::array()}};
   for (const auto& [id, of_object] : found.predictions) {
     Json object = {{"id", id}, {"name", NameOf(source, id)}, {"prediction", ToJson(of_object)}};

@@ -7,6 +7,7 @@
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/table.h"
 #include "cli/file_info.h"
+#include "cli/left_out_text.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
@@ -127,6 +128,10 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
                    Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames), "\n",
                    OriginOf(folder->frames), "labels      ", Plural(count->labels.size(), "object"),
                    "\nobjects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
+  if (!folder->frames.left_out->Empty()) {
+    absl::StrAppend(&info.text, "left out    ",
+                    LeftOutText(*folder->frames.left_out, "            "));
+  }
   info.json = {{"kind", "lidar_folder"},
                {"path", path},
                {"description", folder->frames.description},
@@ -140,6 +145,7 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
                {"origin_m", ToJson(folder->frames.origin_m)},
                {"sensor_pose_error_m", folder->frames.sensor_pose_error_m},
                {"sensor_pose_error_rad", folder->frames.sensor_pose_error_rad},
+               {"left_out", ToJson(*folder->frames.left_out)},
                {"objects", JsonOf(tracks)}};
   return info;
 }

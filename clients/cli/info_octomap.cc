@@ -1,4 +1,6 @@
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "clearway/base/number_text.h"
 #include "clearway/io/octomap_file.h"
 #include "cli/file_info.h"
 #include "cli/text.h"
@@ -16,7 +18,7 @@ absl::StatusOr<FileInfo> InfoOfOctomap(const std::string& path) {
   FileInfo info;
   info.text = absl::StrCat("map         ", path, ": ", file->tree_type,
                            full ? ", log-odds (.ot)" : ", three-way (.bt)", "\n", "voxel size  ",
-                           Fixed(map.grid().resolution_m(), 3), " m\n", "voxels      ",
+                           NumberText(map.grid().resolution_m()), " m\n", "voxels      ",
                            Grouped(map.occupied_count()), " occupied, ", Grouped(free), " free\n");
   if (!box.Empty()) {
     absl::StrAppend(&info.text, "extent      ", Size(box.Size()), ", from ", Point(box.min), " to ",
@@ -26,6 +28,10 @@ absl::StatusOr<FileInfo> InfoOfOctomap(const std::string& path) {
     absl::StrAppend(&info.text, "clamped     ", Plural(file->clamped_voxels, "voxel"),
                     " had log-odds beyond the sensor model's limits\n");
   }
+  if (!file->unknown_keys.empty()) {
+    absl::StrAppend(&info.text, "header      skipped: ", absl::StrJoin(file->unknown_keys, ", "),
+                    " (not known to OctoMap)\n");
+  }
   info.json = {{"kind", "octomap"},
                {"path", path},
                {"tree_type", file->tree_type},
@@ -34,6 +40,7 @@ absl::StatusOr<FileInfo> InfoOfOctomap(const std::string& path) {
                {"occupied_voxels", map.occupied_count()},
                {"free_voxels", free},
                {"clamped_voxels", file->clamped_voxels},
+               {"unknown_header_keys", file->unknown_keys},
                {"box", ToJson(box)}};
   return info;
 }

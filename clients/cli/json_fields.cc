@@ -5,11 +5,11 @@
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/geometry/unit_quaternion.h"
 
 namespace clearway::cli {
 namespace {
-
-constexpr double kUnitTolerance = 1e-3;
 
 // The value as it stands in the file, cut to a message's length.
 std::string Shown(const Json& value) {
@@ -86,8 +86,8 @@ absl::StatusOr<Duration> JsonFields::Seconds(const char* field) const {
   const auto seconds = Number(field);
   if (!seconds.ok()) return seconds.status();
   if (std::abs(*seconds) <= kLongest_s) return FromSeconds(*seconds);
-  return Error(field,
-               absl::StrCat("is ", *seconds, " s, must be at most ", kLongest_s, " s either way"));
+  return Error(field, absl::StrCat("is ", NumberText(*seconds), " s, must be at most ",
+                                   NumberText(kLongest_s), " s either way"));
 }
 
 absl::StatusOr<bool> JsonFields::FlagOr(const char* field, bool otherwise) const {
@@ -168,12 +168,11 @@ absl::StatusOr<Pose> JsonFields::PoseOrIdentity(const char* field) const {
   if (pose_fields->Has("rotation_xyzw")) {
     const auto q = pose_fields->Numbers("rotation_xyzw", 4);
     if (!q.ok()) return q.status();
-    pose.rotation = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (std::abs(pose.rotation.norm() - 1) > kUnitTolerance) {
-      return pose_fields->Error("rotation_xyzw",
-                                absl::StrCat("has length ", pose.rotation.norm(), ", expected 1"));
+    const Eigen::Quaterniond rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+    if (!IsNearlyUnit(rotation)) {
+      return pose_fields->Error("rotation_xyzw", NotUnitText(rotation));
     }
-    pose.rotation.normalize();
+    pose.rotation = rotation.normalized();
   }
   return pose;
 }

@@ -1,11 +1,18 @@
 #include "cli/json_file.h"
 
-#include <fstream>
-#include <iterator>
+#include <array>
+#include <istream>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
+#include "clearway/io/file_type.h"
 
 namespace clearway::cli {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 16'000'000;
+
+}  // namespace
 
 absl::StatusOr<Json> ParseJson(const std::string& text) {
   try {
@@ -20,18 +27,30 @@ absl::StatusOr<Json> ParseJson(const std::string& text) {
 
 absl::StatusOr<std::string> ReadTextFile(const std::filesystem::path& file, const std::string& kind,
                                          const std::string& hint) {
-  constexpr std::uintmax_t kMaxBytes = 16'000'000;
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) {
+  auto text = clearway::ReadTextFile(file, kMaxBytes);
+  if (absl::IsNotFound(text.status())) {
     return absl::NotFoundError(absl::StrCat(file.string(), ": no such ", kind, hint));
   }
-  if (bytes > kMaxBytes) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat(file.string(), ": has ", bytes, " bytes, the limit is ", kMaxBytes));
+  if (!text.ok()) return text;
+  const FileKind is = text->empty() ? FileKind{} : KindOfBytes(*text);
+  const bool is_text = is.type == FileType::kText || is.type == FileType::kUnknown;
+  if (is_text) return text;
+  return absl::InvalidArgumentError(
+      absl::StrCat(file.string(), ": not a ", kind, "; the file is ", is.name));
+}
+
+absl::StatusOr<std::string> ReadStream(const std::string& name, std::istream& in) {
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  while (in.read(piece.data(), piece.size()) || in.gcount() > 0) {
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMaxBytes) {
+      return absl::ResourceExhaustedError(
+          absl::StrCat(name, ": more than ", kMaxBytes, " bytes, the limit"));
+    }
   }
-  return std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (in.bad()) return absl::DataLossError(absl::StrCat(name, ": cannot be read"));
+  return text;
 }
 
 }  // namespace clearway::cli

@@ -8,6 +8,7 @@
 #include "clearway/io/cloud_folder.h"
 #include "clearway/io/cluster_slam.h"
 #include "clearway/io/dynosam.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/kitti_odometry.h"
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
@@ -106,9 +107,20 @@ SourceKind KindOf(const std::string& spec) {
   if (std::filesystem::is_directory(path, error) || IsDynosam(path)) {
     return SourceKind::kLidarFolder;
   }
-  const std::string extension = path.extension().string();
-  if (extension == ".bt" || extension == ".ot") return SourceKind::kOctomap;
-  return SourceKind::kRecording;
+  switch (KindOfFile(path).type) {
+    case FileType::kSqlite:
+      return SourceKind::kRecording;
+    case FileType::kOctomapBt:
+    case FileType::kOctomapOt:
+      return SourceKind::kOctomap;
+    default:
+      return HasMapExtension(path) ? SourceKind::kOctomap : SourceKind::kRecording;
+  }
+}
+
+bool HasMapExtension(const std::filesystem::path& path) {
+  const std::string extension = LowerExtension(path);
+  return extension == ".bt" || extension == ".ot";
 }
 
 absl::StatusOr<Simulation> OpenSimulation(const std::string& spec, const SourceFlags& flags) {

@@ -1,6 +1,7 @@
 // Every kind of source of frames behind one function.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -11,9 +12,12 @@
 
 namespace clearway::cli {
 
-// What a text names.
+// What a text names: a file by its content, or by its extension if its content does not tell.
 enum class SourceKind { kSimulation, kLidarFolder, kOctomap, kRecording };
 SourceKind KindOf(const std::string& spec);
+
+// Whether a file's name is that of an OctoMap file: .bt or .ot, in any case of letters.
+bool HasMapExtension(const std::filesystem::path& path);
 
 // All that open something refuse flags that are for other kinds of source, as CheckSourceFlags.
 

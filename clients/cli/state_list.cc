@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "clearway/base/file.h"
+#include "clearway/geometry/unit_quaternion.h"
 
 namespace clearway::cli {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;
 const std::vector<std::string> kColumns = {"x", "y", "z", "yaw", "qx", "qy", "qz", "qw", "t"};
 
 Eigen::Quaterniond Yaw(double yaw_rad) {
@@ -68,11 +68,11 @@ absl::StatusOr<TimedBase> StateOf(Row row) {
     state.T_W_R.rotation = Yaw(row.Number("yaw"));
   } else {
     const double x = row.Number("qx"), y = row.Number("qy"), z = row.Number("qz");
-    state.T_W_R.rotation = Eigen::Quaterniond(row.Number("qw"), x, y, z);
-    if (std::abs(state.T_W_R.rotation.norm() - 1) > kUnitTolerance) {
-      row.Fail("qx", absl::InvalidArgumentError("the quaternion is not of unit length"));
+    const Eigen::Quaterniond q(row.Number("qw"), x, y, z);
+    if (!IsNearlyUnit(q)) {
+      row.Fail("qx", absl::InvalidArgumentError(absl::StrCat("the quaternion ", NotUnitText(q))));
     }
-    state.T_W_R.rotation.normalize();
+    state.T_W_R.rotation = q.normalized();
   }
   if (row.Has("t")) {
     const auto time = ParseTime(row.Text("t"));
@@ -130,15 +130,21 @@ absl::StatusOr<TimedBase> ParseState(const std::string& text) {
   return state;
 }
 
-absl::StatusOr<std::vector<TimedBase>> ReadStates(const std::string& name, std::istream& in) {
+absl::StatusOr<std::vector<TimedBase>> ReadStates(const std::string& name, std::string_view bytes) {
+  const auto text = WithoutByteOrderMark(name, bytes);
+  if (!text.ok()) return text.status();
   std::vector<TimedBase> states;
   std::vector<std::string> header;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (in.eof()) {  // getline took the rest of it, without the end of the line
+  int number = 0;
+  for (std::string_view rest = *text; !rest.empty();) {
+    ++number;
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) {
       return absl::InvalidArgumentError(absl::StrCat(
           name, ", line ", number, ": the last line does not end: the file seems cut off"));
     }
+    std::string line(rest.substr(0, end));
+    rest.remove_prefix(end + 1);
     absl::StripAsciiWhitespace(&line);
     if (line.empty() || line.front() == '#') continue;
     const std::string where = absl::StrCat(name, ", line ", number);
@@ -156,7 +162,6 @@ absl::StatusOr<std::vector<TimedBase>> ReadStates(const std::string& name, std::
     if (!state.ok()) return state.status();
     states.push_back(*state);
   }
-  if (in.bad()) return absl::DataLossError(absl::StrCat(name, ": cannot be read"));
   if (states.empty()) return absl::InvalidArgumentError(absl::StrCat(name, ": holds no states"));
   return states;
 }

@@ -49,6 +49,10 @@ absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::s
   if (!fields.ok()) return fields.status();
   const auto folder = OpenTables(*fields);
   if (!folder.ok()) return folder.status();
+  // A plan does not show that its world is incomplete.
+  if (folder->frames.left_out->rows > 0) {
+    return fields->Error("file", folder->frames.left_out->reasons.front());
+  }
   const std::map<int, double> seconds = SecondsOf(folder->poses);
   std::map<ObjectId, Track> by_id;
   for (const RecordedBox& box : folder->boxes) {

@@ -1,29 +1,58 @@
 #include <algorithm>
-#include <fstream>
+#include <array>
+#include <cmath>
 #include <map>
-#include <sstream>
+#include <vector>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "clearway/base/number_text.h"
+#include "cli/json_file.h"
 #include "cli/tracks.h"
+#include "cli/values.h"
 
 namespace clearway::cli {
 namespace {
 
-// Lines that are no eight numbers are refused.
+// Eight finite numbers between blanks.
+absl::StatusOr<std::array<double, 8>> NumbersOf(const std::string& where, std::string_view line) {
+  std::array<double, 8> numbers;
+  const std::vector<std::string> words = absl::StrSplit(
+      absl::string_view(line.data(), line.size()), absl::ByAnyChar(" \t\r"), absl::SkipEmpty());
+  if (words.size() != numbers.size()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ": ", words.size(), " words, expected eight numbers"));
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto number = ParseFinite(words[i]);
+    if (!number.ok()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(where, ", word ", i + 1, ": ", number.status().message()));
+    }
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
+// A scenario is refused if a line is bad: nobody would see that a track of it is incomplete.
 absl::StatusOr<std::map<int, Track>> ReadLines(const std::filesystem::path& file,
                                                const Cylinder& shape) {
-  constexpr double kFramesPerSecond = 25;
-  std::ifstream stream(file);
-  if (!stream) return absl::NotFoundError(absl::StrCat(file.string(), ": cannot be read"));
+  constexpr double kFramesPerSecond = 25, kMaxId = 1e9;
+  const auto text = ReadTextFile(file, "table of tracks");
+  if (!text.ok()) return text.status();
   std::map<int, Track> tracks;  // by id
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    std::istringstream fields(line);
-    double frame = 0, id = 0, x = 0, z = 0, y = 0, vx = 0, vz = 0, vy = 0;
-    if (!(fields >> frame >> id >> x >> z >> y >> vx >> vz >> vy)) {
+  int line_number = 0;
+  for (const absl::string_view line : absl::StrSplit(*text, '\n')) {
+    ++line_number;
+    if (absl::StripAsciiWhitespace(line).empty()) continue;
+    const std::string where = absl::StrCat(file.string(), ": line ", line_number);
+    const auto numbers = NumbersOf(where, {line.data(), line.size()});
+    if (!numbers.ok()) return numbers.status();
+    const auto& [frame, id, x, z, y, vx, vz, vy] = *numbers;
+    if (!(std::abs(id) <= kMaxId) || id != std::floor(id)) {
       return absl::InvalidArgumentError(
-          absl::StrCat(file.string(), ": line ", number, ": expected eight numbers"));
+          absl::StrCat(where, ", word 2: expected a track's number, not ", NumberText(id)));
     }
     tracks[static_cast<int>(id)].seen.push_back({frame / kFramesPerSecond,
                                                  Pose::Translation(x, y, shape.length_m / 2),

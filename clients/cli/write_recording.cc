@@ -1,7 +1,10 @@
 #include "cli/write_recording.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/recording.h"
+#include "cli/message.h"
+#include "cli/open_source.h"
 #include "cli/progress.h"
 #include "cli/text.h"
 
@@ -28,6 +31,19 @@ absl::StatusOr<Written> WriteAll(const FrameSource& source, FrameRange range,
 }
 
 }  // namespace
+
+absl::Status CheckRecordingName(const std::string& out) {
+  const std::string extension = LowerExtension(out);
+  if (HasMapExtension(out) || extension == ".ply" || extension == ".pcd") {
+    return UsageError(absl::StrCat("--out: '", out, "' is the name of a ",
+                                   HasMapExtension(out) ? "map" : "point cloud",
+                                   "; name a recording, as drive.cwr"));
+  }
+  if (out.starts_with("sim:")) {
+    return UsageError(absl::StrCat("--out: '", out, "' names a simulation, not a file"));
+  }
+  return absl::OkStatus();
+}
 
 absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange range,
                                        const std::string& path, bool overwrite,

@@ -15,6 +15,10 @@ struct Written {
   std::uint64_t points = 0;
 };
 
+// INVALID_ARGUMENT, naming --out, for names that people, and other programs, take for another kind
+// of file.
+absl::Status CheckRecordingName(const std::string& out);
+
 // The recording appears at `path` when it is whole. Errors as the source's and RecordingWriter's;
 // ALREADY_EXISTS unless `overwrite`.
 absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange range,

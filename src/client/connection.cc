@@ -1,11 +1,10 @@
 #include "clearway/client/connection.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "clearway/client/error_details.h"
 #include "client/call.h"
 #include "wire/server_wire.h"
@@ -17,20 +16,23 @@ namespace {
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
     const ConnectionOptions& options) {
   if (options.tls_root_certificates_file.empty()) return grpc::InsecureChannelCredentials();
-  std::ifstream file(options.tls_root_certificates_file);
-  std::ostringstream pem;
-  pem << file.rdbuf();
-  if (!file || pem.str().empty()) {
-    return absl::NotFoundError(absl::StrCat("tls_root_certificates_file: cannot read ",
-                                            options.tls_root_certificates_file));
+  constexpr std::uint64_t kMaxBytes = 16'000'000;
+  absl::StatusOr<std::string> pem = ReadWholeFile(options.tls_root_certificates_file, kMaxBytes);
+  if (!pem.ok()) {
+    return absl::Status(pem.status().code(),
+                        absl::StrCat("tls_root_certificates_file: ", pem.status().message()));
   }
-  if (pem.str().find("-----BEGIN ") == std::string::npos) {
+  if (pem->empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "tls_root_certificates_file: ", options.tls_root_certificates_file, ": is empty"));
+  }
+  if (pem->find("-----BEGIN ") == std::string::npos) {
     return absl::InvalidArgumentError(
         absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file,
                      " holds no certificate in PEM"));
   }
   grpc::SslCredentialsOptions tls;
-  tls.pem_root_certs = pem.str();
+  tls.pem_root_certs = *std::move(pem);
   return grpc::SslCredentials(tls);
 }
 

@@ -1,4 +1,5 @@
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/collision/motion.h"
 #include "collision/validation.h"
 
@@ -44,7 +45,8 @@ absl::Status CheckDeviations(const MotionBatch& motions) {
   for (std::size_t i = 0; i < deviations_m.size(); ++i) {
     if (deviations_m[i] >= 0 && deviations_m[i] <= kMost_m) continue;
     return Invalid(absl::StrCat("deviations_m[", i, "]"),
-                   absl::StrCat("is ", deviations_m[i], "; it must lie between 0 and ", kMost_m));
+                   absl::StrCat("is ", NumberText(deviations_m[i]), "; it must lie between 0 and ",
+                                NumberText(kMost_m)));
   }
   return absl::OkStatus();
 }
@@ -72,8 +74,9 @@ absl::Status Validate(const MotionOptions& options, const Robot& robot) {
   constexpr double kLeast_m = 1e-4, kMost_m = 10;
   const double resolution_m = options.contact_resolution_m;
   if (resolution_m >= kLeast_m && resolution_m <= kMost_m) return absl::OkStatus();
-  return Invalid("contact_resolution_m", absl::StrCat("is ", resolution_m, "; it must lie between ",
-                                                      kLeast_m, " and ", kMost_m));
+  return Invalid("contact_resolution_m",
+                 absl::StrCat("is ", NumberText(resolution_m), "; it must lie between ",
+                              NumberText(kLeast_m), " and ", NumberText(kMost_m)));
 }
 
 }  // namespace clearway

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/geometry/unit_quaternion.h"
 #include "clearway/scene/frame.h"
 #include "collision/validation.h"
 
@@ -20,13 +22,14 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
 
 absl::Status CheckWithin(const std::string& field, double value, double least, double most) {
   if (value >= least && value <= most) return absl::OkStatus();  // so that NaN fails
-  return Invalid(field, absl::StrCat("is ", value, "; it must lie between ", least, " and ", most));
+  return Invalid(field, absl::StrCat("is ", NumberText(value), "; it must lie between ",
+                                     NumberText(least), " and ", NumberText(most)));
 }
 
 absl::Status CheckLimit(const std::string& field, double value) {
   if (value > 0 && value <= kMostSpeed) return absl::OkStatus();
-  return Invalid(field,
-                 absl::StrCat("is ", value, "; it must be above 0, and at most ", kMostSpeed));
+  return Invalid(field, absl::StrCat("is ", NumberText(value), "; it must be above 0, and at most ",
+                                     NumberText(kMostSpeed)));
 }
 
 absl::Status CheckJoint(const std::string& field, const Joint& joint) {
@@ -87,9 +90,10 @@ absl::Status CheckArea(const PlanTask& task) {
   for (int axis = 0; axis < axes; ++axis) {
     const double low = task.area_W.min[axis], high = task.area_W.max[axis];
     if (low >= -kMost_m && low <= high && high <= kMost_m) continue;
-    return Invalid(absl::StrCat("area.", std::string(1, static_cast<char>('x' + axis))),
-                   absl::StrCat("is from ", low, " to ", high,
-                                "; the first must be at most the second, both within ", kMost_m));
+    return Invalid(
+        absl::StrCat("area.", std::string(1, static_cast<char>('x' + axis))),
+        absl::StrCat("is from ", NumberText(low), " to ", NumberText(high),
+                     "; the first must be at most the second, both within ", NumberText(kMost_m)));
   }
   if (auto status = CheckLimit("max_speed_mps", task.max_speed_mps); !status.ok()) return status;
   return Turns(task.space) ? CheckLimit("max_turn_radps", task.max_turn_radps) : absl::OkStatus();
@@ -127,9 +131,9 @@ absl::Status CheckConfiguration(const std::string& field, const std::vector<doub
     }
   }
   if (size != 7) return absl::OkStatus();
-  const double norm = Eigen::Vector4d(values[3], values[4], values[5], values[6]).norm();
-  if (std::abs(norm - 1) < 1e-6) return absl::OkStatus();
-  return Invalid(field, absl::StrCat("has a quaternion of length ", norm, "; it must be 1"));
+  const Eigen::Quaterniond rotation(values[6], values[3], values[4], values[5]);
+  if (IsNearlyUnit(rotation)) return absl::OkStatus();
+  return Invalid(field, absl::StrCat("has a quaternion that ", NotUnitText(rotation)));
 }
 
 }  // namespace
@@ -150,13 +154,23 @@ std::size_t DimensionOf(const ConfigurationSpace& space) {
   return std::get<ArmSpace>(space).joints.size();
 }
 
+std::vector<double> NormalizedConfiguration(const ConfigurationSpace& space,
+                                            std::vector<double> values) {
+  const auto* flight = std::get_if<FlightSpace>(&space);
+  if (flight == nullptr || !flight->turns) return values;
+  const Eigen::Quaterniond q =
+      Normalized(Eigen::Quaterniond(values[6], values[3], values[4], values[5]));
+  for (int i = 0; i < 4; ++i) values[3 + i] = q.coeffs()[i];
+  return values;
+}
+
 absl::Status Validate(const PlanTask& task, const Robot& robot) {
   if (auto status = CheckSpace(task.space, robot); !status.ok()) return status;
   if (auto status = CheckArea(task); !status.ok()) return status;
   if (auto status = CheckConfiguration("start", task.start, task); !status.ok()) return status;
   if (auto status = CheckConfiguration("goal", task.goal, task); !status.ok()) return status;
   if (task.time_limit <= Duration::zero() || task.time_limit > kLongest) {
-    return Invalid("time_limit_s", absl::StrCat("is ", ToSeconds(task.time_limit),
+    return Invalid("time_limit_s", absl::StrCat("is ", NumberText(ToSeconds(task.time_limit)),
                                                 "; it must be above 0, and at most 3600"));
   }
   if (auto status = ValidateTime("start_ns", task.start_time); !status.ok()) return status;

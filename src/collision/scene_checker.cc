@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "clearway/geometry/unit_quaternion.h"
 #include "collision/motion_check.h"
 #include "collision/placed_object.h"
 #include "collision/state_check.h"
@@ -58,6 +59,9 @@ absl::StatusOr<CheckReply> SceneChecker::Check(const StateBatch& states,
                                                const std::function<bool()>& cancelled) const {
   if (auto status = Validate(options, robot()); !status.ok()) return status;
   if (auto status = Validate(states, robot()); !status.ok()) return status;
+  if (auto T_W_L = Renormalized(states.T_W_L)) {
+    return Check({states.times, *std::move(T_W_L)}, options, cancelled);
+  }
   const auto allowed_contacts = AllowedContacts(options, *impl_->scene);
   CheckReply reply{version(), stamp(), std::vector<StateAnswer>(states.times.size())};
   ObjectPlacer objects(*impl_->scene, impl_->solids, impl_->index, options);
@@ -81,6 +85,11 @@ absl::StatusOr<MotionReply> SceneChecker::CheckMotions(
     const std::function<bool()>& cancelled) const {
   if (auto status = Validate(options, robot()); !status.ok()) return status;
   if (auto status = Validate(motions, robot()); !status.ok()) return status;
+  if (auto T_W_L = Renormalized(motions.T_W_L)) {
+    MotionBatch normalized = motions;
+    normalized.T_W_L = *std::move(T_W_L);
+    return CheckMotions(normalized, options, cancelled);
+  }
   const SceneSnapshot& scene = *impl_->scene;
   MotionReply reply{version(),
                     stamp(),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/scene/frame.h"
 
 namespace clearway {
@@ -18,7 +19,8 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
 
 absl::Status CheckBetween(const char* field, double value, double low, double high) {
   if (value >= low && value <= high) return absl::OkStatus();  // false for NaN
-  return Invalid(field, absl::StrCat("is ", value, "; it must lie between ", low, " and ", high));
+  return Invalid(field, absl::StrCat("is ", NumberText(value), "; it must lie between ",
+                                     NumberText(low), " and ", NumberText(high)));
 }
 
 absl::Status CheckLists(const CheckOptions& options, const Robot& robot) {

@@ -1,6 +1,7 @@
 #include <initializer_list>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/geometry/shape.h"
 
 namespace clearway {
@@ -14,8 +15,9 @@ absl::Status Invalid(const std::string& field, const std::string& what) {
 
 absl::Status CheckSize(const std::string& field, double size_m) {
   if (size_m > 0 && size_m <= kMaxSize_m) return absl::OkStatus();  // false for NaN
-  return Invalid(
-      field, absl::StrCat("is ", size_m, "; it must be positive and at most ", kMaxSize_m, " m"));
+  return Invalid(field,
+                 absl::StrCat("is ", NumberText(size_m), "; it must be positive and at most ",
+                              NumberText(kMaxSize_m), " m"));
 }
 
 absl::Status FirstError(std::initializer_list<absl::Status> statuses) {

@@ -89,11 +89,12 @@ absl::StatusOr<LidarFolder> OpenCarla(const Path& given, const LidarFolderOption
   LidarScans scans;
   scans.name = absl::StrCat("CARLA scans ", folder.string());
   scans.options = options;
-  auto poses = ReadCarlaSensor(folder / kSensorTable);
+  auto poses = ReadCarlaSensor(folder / kSensorTable, *scans.left_out);
   if (!poses.ok()) return poses.status();
   scans.poses = *std::move(poses);
   const bool has_actors = std::filesystem::exists(folder / kActorTable, error);
-  auto actors = has_actors ? ReadCarlaActors(folder / kActorTable, scans.poses) : CarlaActors();
+  auto actors = has_actors ? ReadCarlaActors(folder / kActorTable, scans.poses, *scans.left_out)
+                           : CarlaActors();
   if (!actors.ok()) return actors.status();
   scans.boxes = std::move(actors->boxes);
   auto files = NumberedFiles(folder, ".ply");
@@ -104,6 +105,10 @@ absl::StatusOr<LidarFolder> OpenCarla(const Path& given, const LidarFolderOption
   scans.read = [shared](const Path& path, std::span<const RecordedBox>, Frame& frame) {
     return ReadPoints(*shared, path, frame);
   };
+  for (const auto& [frame, path] : shared->files) {
+    if (PoseOf(scans.poses, frame) != nullptr) continue;
+    scans.left_out->AddFrame(absl::StrCat(path.string(), ": no row in ", kSensorTable));
+  }
   const std::string description = Described(scans.name, scans, *shared, *actors, has_actors);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));
   if (result.ok()) result->frames.description = description;

@@ -22,16 +22,18 @@ struct CarlaTransform {
 // (x, -y, z), which turns the signs of yaw and pitch: Docs/coordinate_conventions.md of CARLA.
 Pose FromCarla(const CarlaTransform& transform);
 
-// T_W_S by ascending frames and stamps.
-absl::StatusOr<std::vector<RecordedPose>> ReadCarlaSensor(const std::filesystem::path& path);
+// T_W_S by ascending frames and stamps; other rows are left out as by ReadLidarPoses.
+absl::StatusOr<std::vector<RecordedPose>> ReadCarlaSensor(const std::filesystem::path& path,
+                                                          LeftOut& left_out);
 
 struct CarlaActors {
   std::vector<RecordedBox> boxes;  // ascending (frame, id)
   std::set<ObjectId> objects;      // all that have a row
   std::set<ObjectId> ego;          // of the type "ego": what the sensor is mounted on
-  std::size_t without_pose = 0;    // rows of frames that the sensor has none of, left out
+  std::size_t without_pose = 0;    // rows of frames that the sensor has none of
 };
 absl::StatusOr<CarlaActors> ReadCarlaActors(const std::filesystem::path& path,
-                                            const std::vector<RecordedPose>& poses);
+                                            const std::vector<RecordedPose>& poses,
+                                            LeftOut& left_out);
 
 }  // namespace clearway

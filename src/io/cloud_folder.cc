@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -119,15 +120,22 @@ struct Posed {
   std::size_t without_pose = 0;
 };
 
-Posed PosedByStamps(const NamedClouds& named, const PoseTable& table) {
+std::string NoPose(const Path& cloud, const Path& table_path) {
+  return absl::StrCat(cloud.string(), ": no pose in ", table_path.filename().string());
+}
+
+Posed PosedByStamps(const NamedClouds& named, const PoseTable& table, const Path& table_path,
+                    LeftOut& left_out) {
   TumTrack track;
-  for (const PoseRow& row : table.rows) track.push_back({row.stamp, row.pose});
+  for (const auto& [pose, line] : table.rows) track.push_back({pose.stamp, pose.T_W_S, line});
+  SortByStamp(table_path, track, left_out);
   Posed posed;
   posed.how = "at the stamps that name the clouds";
   for (std::size_t i = 0; i < named.clouds.size(); ++i) {
     const auto pose = PoseAt(track, named.clouds[i].stamp);
     if (!pose) {
       ++posed.without_pose;
+      left_out.AddFrame(NoPose(named.clouds[i].path, table_path));
       continue;
     }
     const int frame = static_cast<int>(i);
@@ -138,42 +146,48 @@ Posed PosedByStamps(const NamedClouds& named, const PoseTable& table) {
 }
 
 absl::StatusOr<Posed> PosedByRows(const NamedClouds& named, const PoseTable& table,
-                                  const std::string& folder) {
-  const auto rows = RowsOf(named, table.rows.size(), folder);
+                                  const Path& table_path, const std::string& folder,
+                                  LeftOut& left_out) {
+  const auto rows = RowsOf(named, table.row_count, folder);
   if (!rows.ok()) return rows.status();
+  std::map<int, Path> of_rows;
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    if ((*rows)[i]) of_rows[static_cast<int>(*(*rows)[i])] = named.clouds[i].path;
+  }
+  std::vector<TablePose> used = table.rows;
+  std::erase_if(used, [&](const TablePose& row) { return !of_rows.contains(row.pose.frame); });
   Posed posed;
   posed.how = named.naming == CloudNaming::kNumbers ? "of the rows that number the clouds"
                                                     : "in the clouds' order";
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    if (!(*rows)[i]) {
-      ++posed.without_pose;
-      continue;
-    }
-    const PoseRow& row = table.rows[*(*rows)[i]];
-    const int frame = static_cast<int>(*(*rows)[i]);
-    if (!posed.poses.empty() && row.stamp <= posed.poses.back().stamp) {
-      return absl::InvalidArgumentError(absl::StrCat(folder, ": the poses of rows ",
-                                                     posed.poses.back().frame, " and ", frame,
-                                                     " have the same stamp"));
-    }
-    posed.clouds[frame] = named.clouds[i].path;
-    posed.poses.push_back({frame, row.stamp, row.pose});
+  posed.poses = InOrder(table_path, std::move(used), left_out);
+  for (const RecordedPose& pose : posed.poses) {
+    posed.clouds[pose.frame] = std::move(of_rows.at(pose.frame));
+  }
+  std::set<Path> with_pose;
+  for (const auto& [frame, path] : posed.clouds) with_pose.insert(path);
+  for (const NamedCloud& cloud : named.clouds) {
+    if (with_pose.contains(cloud.path)) continue;
+    ++posed.without_pose;
+    left_out.AddFrame(NoPose(cloud.path, table_path));
   }
   return posed;
 }
 
 absl::StatusOr<Posed> Associate(const NamedClouds& named, const PoseTable& table,
-                                const Path& table_path, const std::string& folder) {
-  if (named.naming != CloudNaming::kStamps) return PosedByRows(named, table, folder);
-  if (table.stamped) return PosedByStamps(named, table);
-  if (named.clouds.size() == table.rows.size()) {
+                                const Path& table_path, const std::string& folder,
+                                LeftOut& left_out) {
+  if (named.naming != CloudNaming::kStamps) {
+    return PosedByRows(named, table, table_path, folder, left_out);
+  }
+  if (table.stamped) return PosedByStamps(named, table, table_path, left_out);
+  if (named.clouds.size() == table.row_count) {
     NamedClouds in_order = named;
     in_order.naming = CloudNaming::kOther;
-    return PosedByRows(in_order, table, folder);
+    return PosedByRows(in_order, table, table_path, folder, left_out);
   }
   return absl::InvalidArgumentError(
       absl::StrCat(folder, ": ", named.clouds.size(), " clouds are named by their stamps, but the ",
-                   table.rows.size(), " poses of ", table_path.string(), " have none"));
+                   table.row_count, " poses of ", table_path.string(), " have none"));
 }
 
 std::string Described(const std::string& name, const Posed& posed, const Path& table_path,
@@ -207,11 +221,12 @@ absl::StatusOr<LidarFolder> OpenCloudFolder(const Path& given, const CloudFolder
   }
   const auto table_path = FindTable(folder, folders.front(), options.pose_table);
   if (!table_path.ok()) return table_path.status();
-  const auto table = ReadPoseTable(*table_path, options.frame_period);
+  LidarScans scans;
+  const auto table = ReadPoseTable(*table_path, options.frame_period, *scans.left_out);
   if (!table.ok()) return table.status();
   const auto named = NameClouds(CloudsIn(folders.front()));
   if (!named.ok()) return named.status();
-  auto posed = Associate(*named, *table, *table_path, folder.string());
+  auto posed = Associate(*named, *table, *table_path, folder.string(), *scans.left_out);
   if (!posed.ok()) return posed.status();
   if (posed->poses.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(folder.string(), ": none of ",
@@ -221,7 +236,6 @@ absl::StatusOr<LidarFolder> OpenCloudFolder(const Path& given, const CloudFolder
   const auto first = ReadCloud(posed->clouds.begin()->second, options.label_field);
   if (!first.ok()) return first.status();
 
-  LidarScans scans;
   scans.name = absl::StrCat("point clouds ", folders.front().string());
   scans.options = {.first_frame = options.first_frame,
                    .last_frame = options.last_frame,

@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/base/number_text.h"
 #include "io/cluster_slam_files.h"
 #include "io/cluster_slam_fit.h"
 #include "io/lidar_frames.h"
@@ -44,9 +45,10 @@ struct SeenTwice {
   Eigen::Vector2d left, right;
 };
 
-absl::StatusOr<std::vector<SeenTwice>> ReadSeenTwice(const Sequence& sequence, int frame) {
-  const auto left = ReadLandmarks(sequence.FileOf("left", frame));
-  const auto right = ReadLandmarks(sequence.FileOf("right", frame));
+absl::StatusOr<std::vector<SeenTwice>> ReadSeenTwice(const Sequence& sequence, int frame,
+                                                     LeftOut& left_out) {
+  const auto left = ReadLandmarks(sequence.FileOf("left", frame), left_out);
+  const auto right = ReadLandmarks(sequence.FileOf("right", frame), left_out);
   std::vector<SeenTwice> seen;
   for (const absl::Status& status : {left.status(), right.status()}) {
     if (absl::IsNotFound(status) && sequence.allow_missing) return seen;
@@ -59,8 +61,8 @@ absl::StatusOr<std::vector<SeenTwice>> ReadSeenTwice(const Sequence& sequence, i
   return seen;
 }
 
-absl::StatusOr<ClusterPoints> ReadPoints(const Sequence& sequence, int frame) {
-  const auto seen = ReadSeenTwice(sequence, frame);
+absl::StatusOr<ClusterPoints> ReadPoints(const Sequence& sequence, int frame, LeftOut& left_out) {
+  const auto seen = ReadSeenTwice(sequence, frame, left_out);
   if (!seen.ok()) return seen.status();
   ClusterPoints points;
   for (const SeenTwice& landmark : *seen) {
@@ -81,7 +83,9 @@ absl::Status CheckCameras(const Sequence& sequence) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < frames; ++i) {
     const auto at = static_cast<std::ptrdiff_t>(i * sequence.poses.size() / frames);
-    const auto seen = ReadSeenTwice(sequence, std::next(sequence.poses.begin(), at)->first);
+    LeftOut ignored;  // counted when frames are read
+    const auto seen =
+        ReadSeenTwice(sequence, std::next(sequence.poses.begin(), at)->first, ignored);
     if (!seen.ok()) return seen.status();
     for (const SeenTwice& landmark : *seen) {
       if (sequence.cameras.Triangulate(landmark.left, landmark.right)) return absl::OkStatus();
@@ -95,12 +99,13 @@ absl::Status CheckCameras(const Sequence& sequence) {
       "swapped, in landmarks or in intrinsic.txt?"));
 }
 
-absl::StatusOr<Sequence> ReadSequence(const Path& folder, const ClusterSlamOptions& options) {
+absl::StatusOr<Sequence> ReadSequence(const Path& folder, const ClusterSlamOptions& options,
+                                      LeftOut& left_out) {
   auto cameras = ReadClusterCameras(folder);
   if (!cameras.ok()) return cameras.status();
-  auto clusters = ReadLandmarkClusters(folder / kMapping);
+  auto clusters = ReadLandmarkClusters(folder / kMapping, left_out);
   if (!clusters.ok()) return clusters.status();
-  auto poses = ReadClusterPoses(folder / "pose");
+  auto poses = ReadClusterPoses(folder / "pose", left_out);
   if (!poses.ok()) return poses.status();
   return Sequence{folder,
                   *std::move(cameras),
@@ -113,23 +118,23 @@ absl::StatusOr<Sequence> ReadSequence(const Path& folder, const ClusterSlamOptio
 absl::Status CheckFit(const ClusterFit& fit, const Path& folder, LidarObjects objects) {
   if (fit.static_px && !(*fit.static_px <= kMostError_px)) {
     return absl::InvalidArgumentError(absl::StrCat(
-        folder.string(), ": static landmarks are seen ", *fit.static_px,
+        folder.string(), ": static landmarks are seen ", NumberText(*fit.static_px),
         " pixels (median) from where the camera's poses put them, whatever the order of their "
         "quaternions; the limit is ",
         kMostError_px));
   }
   if (objects != LidarObjects::kNone && fit.moving_px && !(*fit.moving_px <= kMostError_px)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(folder.string(), ": landmarks of moving clusters are seen ", *fit.moving_px,
-                     " pixels (median) from where the clusters' poses put them; the limit is ",
-                     kMostError_px, " (--objects none goes on without these poses)"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        folder.string(), ": landmarks of moving clusters are seen ", NumberText(*fit.moving_px),
+        " pixels (median) from where the clusters' poses put them; the limit is ", kMostError_px,
+        " (--objects none goes on without these poses)"));
   }
   return absl::OkStatus();
 }
 
 // How many clusters have landmarks, but no poses.
 std::size_t WithoutPoses(const Sequence& sequence) {
-  const std::size_t posed = sequence.poses.begin()->second.size();
+  const std::size_t posed = 1 + sequence.poses.begin()->second.clusters.size();
   std::set<ObjectId> clusters;
   for (const auto& [landmark, cluster] : sequence.clusters) {
     if (static_cast<std::size_t>(cluster) >= posed) clusters.insert(cluster);
@@ -168,16 +173,17 @@ void SetPoses(const ClusterPoses& poses, QuaternionOrder order, Duration period,
   constexpr int kNotSaid = -1;
   for (const auto& [frame, of_frame] : poses) {
     scans.poses.push_back(
-        {frame, TimeFromNanoseconds(frame * period.count()), of_frame[0].In(order)});
-    for (std::size_t cluster = 1; cluster < of_frame.size(); ++cluster) {
-      scans.boxes.push_back({frame, static_cast<ObjectId>(cluster), "cluster",
-                             Eigen::Vector3d::Zero(), of_frame[cluster].In(order), kNotSaid});
+        {frame, TimeFromNanoseconds(frame * period.count()), of_frame.camera.In(order)});
+    for (std::size_t i = 0; i < of_frame.clusters.size(); ++i) {
+      if (!of_frame.clusters[i]) continue;
+      scans.boxes.push_back({frame, static_cast<ObjectId>(i + 1), "cluster",
+                             Eigen::Vector3d::Zero(), of_frame.clusters[i]->In(order), kNotSaid});
     }
   }
 }
 
-absl::Status Fill(const Sequence& sequence, Frame& frame) {
-  const auto points = ReadPoints(sequence, static_cast<int>(frame.sequence));
+absl::Status Fill(const Sequence& sequence, LeftOut& left_out, Frame& frame) {
+  const auto points = ReadPoints(sequence, static_cast<int>(frame.sequence), left_out);
   if (!points.ok()) return points.status();
   for (const ClusterPoint& point : *points) {
     frame.points_S.push_back(point.p_S.cast<float>());
@@ -198,15 +204,17 @@ absl::StatusOr<LidarFolder> OpenClusterSlam(const Path& given, const ClusterSlam
   if (auto status = CheckFramePeriod(options.frame_period); !status.ok()) return status;
   std::error_code error;
   const Path folder = std::filesystem::absolute(given, error).lexically_normal();
-  auto read = ReadSequence(folder, options);
+  LidarScans scans;
+  auto read = ReadSequence(folder, options, *scans.left_out);
   if (!read.ok()) return read.status();
   const auto sequence = std::make_shared<const Sequence>(*std::move(read));
   if (auto status = CheckCameras(*sequence); !status.ok()) return status;
-  const auto fit = FitOf(sequence->poses, sequence->cameras,
-                         [&](int frame) { return ReadPoints(*sequence, frame); });
+  const auto fit = FitOf(sequence->poses, sequence->cameras, [&](int frame) {
+    LeftOut ignored;  // counted when frames are read
+    return ReadPoints(*sequence, frame, ignored);
+  });
   if (!fit.ok()) return fit.status();
   if (auto status = CheckFit(*fit, folder, options.objects); !status.ok()) return status;
-  LidarScans scans;
   scans.name = absl::StrCat("ClusterSLAM sequence ", folder.string());
   scans.options = {.objects = options.objects,
                    .motions_over = options.motions_over,
@@ -216,8 +224,12 @@ absl::StatusOr<LidarFolder> OpenClusterSlam(const Path& given, const ClusterSlam
                    .sensor_id = options.sensor_id};
   SetPoses(sequence->poses, fit->order, options.frame_period, scans);
   scans.points_of = [sequence](int frame) { return sequence->FileOf("left", frame); };
-  scans.read = [sequence](const Path&, std::span<const RecordedBox>, Frame& frame) {
-    return Fill(*sequence, frame);
+  scans.read = [sequence, left_out = scans.left_out, counted = std::make_shared<std::set<int>>()](
+                   const Path&, std::span<const RecordedBox>, Frame& frame) {
+    LeftOut of_frame;
+    const absl::Status status = Fill(*sequence, of_frame, frame);
+    if (counted->insert(static_cast<int>(frame.sequence)).second) left_out->Add(of_frame);
+    return status;
   };
   const std::string description = Described(scans.name, *sequence, *fit);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));

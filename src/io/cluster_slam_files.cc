@@ -1,57 +1,85 @@
 #include "io/cluster_slam_files.h"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "io/numbered_files.h"
-#include "io/word_lines.h"
+#include "io/word_table.h"
 
 namespace clearway {
 namespace {
 
 using Path = std::filesystem::path;
 
-absl::StatusOr<ClusterPose> ReadPose(Words& line) {
-  constexpr double kUnitTolerance = 0.01;
-  if (line.size() != 7) return WrongCount(line, "x y z and a quaternion");
-  ClusterPose pose;
-  for (int i = 0; i < 3; ++i) pose.translation[i] = line.Number(i);
-  for (int i = 0; i < 4; ++i) pose.quaternion[i] = line.Number(3 + i);
-  if (!line.status().ok()) return line.status();
-  const double length = pose.quaternion.norm();
-  if (!(std::abs(length - 1) <= kUnitTolerance)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(line.where(), ", words 4 to 7: no unit quaternion, its length is ", length));
+constexpr WordFormat kFormat{.last = LastLine::kMayBeOpen};
+constexpr std::int64_t kMaxNumber = 99'999'999;  // of landmarks and clusters
+
+// An error of the row if it has no pose.
+std::optional<ClusterPose> TakePose(Row& row) {
+  if (row.size() != 7) {
+    row.WrongCount("x y z and a quaternion").IgnoreError();
+    return std::nullopt;
   }
-  pose.quaternion /= length;
-  return pose;
+  // The order of the quaternion's numbers does not matter to its length.
+  const Pose pose = row.PoseFrom(0);
+  if (!row.status().ok()) return std::nullopt;
+  return ClusterPose{pose.translation, pose.rotation.coeffs()};
 }
 
-absl::StatusOr<std::vector<ClusterPose>> ReadFramePoses(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
+// A frame's poses, as far as its rows are good.
+struct FrameRows {
+  Path path;
+  std::optional<ClusterPose> camera;
+  std::vector<std::optional<ClusterPose>> clusters;
+  std::string why_no_camera;
+  std::vector<std::string> bad_rows;  // of clusters
+};
+
+absl::StatusOr<FrameRows> ReadFrameRows(const Path& path) {
+  auto lines = ReadWordRows(path, kFormat);
   if (!lines.ok()) return lines.status();
-  std::vector<ClusterPose> poses;
-  for (Words& line : *lines) {
-    const auto pose = ReadPose(line);
-    if (!pose.ok()) return pose.status();
-    poses.push_back(*pose);
+  FrameRows frame;
+  frame.path = path;
+  if (lines->rows.empty()) {
+    frame.why_no_camera = absl::StrCat(path.string(), ": no pose of the camera");
+    return frame;
   }
-  if (poses.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no pose of the camera"));
+  for (std::size_t i = 0; i < lines->rows.size(); ++i) {
+    Row& row = lines->rows[i];
+    const auto pose = TakePose(row);
+    const std::string why(row.status().message());
+    if (i == 0) {
+      frame.camera = pose;
+      frame.why_no_camera = why;
+    } else {
+      frame.clusters.push_back(pose);
+      if (!pose) frame.bad_rows.push_back(why);
+    }
   }
-  return poses;
+  return frame;
 }
 
-absl::StatusOr<StereoPair::Projection> TakeProjection(std::vector<Words>& lines,
-                                                      std::size_t first) {
+// The number of clusters that most frames with a camera have.
+std::size_t UsualCount(const std::map<int, FrameRows>& frames) {
+  std::map<std::size_t, std::size_t> counts;
+  for (const auto& [number, frame] : frames) {
+    if (frame.camera) ++counts[frame.clusters.size()];
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; });
+  return most == counts.end() ? 0 : most->first;
+}
+
+absl::StatusOr<StereoPair::Projection> TakeProjection(WordRows& lines, std::size_t first) {
   StereoPair::Projection projection;
-  for (int row = 0; row < 3; ++row) {
-    Words& line = lines[first + row];
-    if (line.size() != 4) return WrongCount(line, "4 numbers of a projection matrix");
-    for (int column = 0; column < 4; ++column) projection(row, column) = line.Number(column);
-    if (!line.status().ok()) return line.status();
+  for (int i = 0; i < 3; ++i) {
+    Row& row = lines.rows[first + i];
+    if (row.size() != 4) return row.WrongCount("4 numbers of a projection matrix");
+    for (int column = 0; column < 4; ++column) projection(i, column) = row.Coordinate(column);
+    if (!row.status().ok()) return row.status();
   }
   return projection;
 }
@@ -65,59 +93,64 @@ Pose ClusterPose::In(QuaternionOrder order) const {
           translation};
 }
 
-absl::StatusOr<ClusterPoses> ReadClusterPoses(const Path& folder) {
+absl::StatusOr<ClusterPoses> ReadClusterPoses(const Path& folder, LeftOut& left_out) {
   const auto files = NumberedFiles(folder, ".txt");
   if (!files.ok()) return files.status();
-  ClusterPoses poses;
-  for (const auto& [frame, path] : *files) {
-    auto of_frame = ReadFramePoses(path);
-    if (!of_frame.ok()) return of_frame.status();
-    // A line's number is its cluster's id, so a line that is gone would make others of all.
-    if (!poses.empty() && of_frame->size() != poses.begin()->second.size()) {
-      return absl::InvalidArgumentError(absl::StrCat(path.string(), ": ", of_frame->size(),
-                                                     " poses; frame ", poses.begin()->first,
-                                                     " has ", poses.begin()->second.size()));
-    }
-    poses[frame] = *std::move(of_frame);
-  }
-  if (poses.empty()) {
+  if (files->empty()) {
     return absl::NotFoundError(absl::StrCat(folder.string(), ": no poses, 0000.txt and so on"));
   }
-  return poses;
+  std::map<int, FrameRows> frames;
+  for (const auto& [number, path] : *files) {
+    auto frame = ReadFrameRows(path);
+    if (!frame.ok()) return frame.status();
+    frames.emplace(number, *std::move(frame));
+  }
+  const std::size_t usual = UsualCount(frames);
+  ClusterPoses poses;
+  for (auto& [number, frame] : frames) {
+    if (!frame.camera) {
+      left_out.AddFrame(frame.why_no_camera);
+    } else if (frame.clusters.size() != usual) {
+      left_out.AddFrame(absl::StrCat(frame.path.string(), ": ", frame.clusters.size() + 1,
+                                     " poses; most frames have ", usual + 1));
+    } else {
+      for (std::string& why : frame.bad_rows) left_out.AddRow(std::move(why));
+      poses.emplace(number, ClusterFrame{*frame.camera, std::move(frame.clusters)});
+    }
+  }
+  if (!poses.empty()) return poses;
+  return absl::InvalidArgumentError(
+      absl::StrCat(frames.begin()->second.why_no_camera, "; no frame has a pose of the camera"));
 }
 
-absl::StatusOr<LandmarkClusters> ReadLandmarkClusters(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
-  if (!lines.ok()) return lines.status();
+absl::StatusOr<LandmarkClusters> ReadLandmarkClusters(const Path& path, LeftOut& left_out) {
   LandmarkClusters clusters;
-  for (Words& line : *lines) {
-    if (line.size() != 2) return WrongCount(line, "landmark and cluster");
-    const int landmark = line.Integer(0, 0);
-    const ObjectId cluster = line.Integer(1, 0);
-    if (!line.status().ok()) return line.status();
-    if (clusters.try_emplace(landmark, cluster).second) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat(line.where(), ": landmark ", landmark, " occurs twice"));
-  }
+  const auto visit = [&](Row& row) {
+    if (row.size() != 2) return row.WrongCount("landmark and cluster");
+    const auto landmark = static_cast<int>(row.Integer(0, 0, kMaxNumber));
+    const auto cluster = static_cast<ObjectId>(row.Integer(1, 0, kMaxNumber));
+    if (!row.status().ok()) return row.status();
+    if (clusters.try_emplace(landmark, cluster).second) return absl::OkStatus();
+    return row.Error(absl::StrCat("landmark ", landmark, " occurs twice"));
+  };
+  if (auto status = VisitWords(path, kFormat, left_out, visit); !status.ok()) return status;
   if (clusters.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no landmark has a cluster"));
   }
   return clusters;
 }
 
-absl::StatusOr<Landmarks> ReadLandmarks(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
-  if (!lines.ok()) return lines.status();
+absl::StatusOr<Landmarks> ReadLandmarks(const Path& path, LeftOut& left_out) {
   Landmarks landmarks;
-  for (Words& line : *lines) {
-    if (line.size() != 3) return WrongCount(line, "landmark u v");
-    const int landmark = line.Integer(0, 0);
-    const Eigen::Vector2d pixel(line.Number(1), line.Number(2));
-    if (!line.status().ok()) return line.status();
-    if (landmarks.try_emplace(landmark, pixel).second) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat(line.where(), ": landmark ", landmark, " occurs twice"));
-  }
+  const auto visit = [&](Row& row) {
+    if (row.size() != 3) return row.WrongCount("landmark u v");
+    const auto landmark = static_cast<int>(row.Integer(0, 0, kMaxNumber));
+    const Eigen::Vector2d pixel(row.Coordinate(1), row.Coordinate(2));
+    if (!row.status().ok()) return row.status();
+    if (landmarks.try_emplace(landmark, pixel).second) return absl::OkStatus();
+    return row.Error(absl::StrCat("landmark ", landmark, " occurs twice"));
+  };
+  if (auto status = VisitWords(path, kFormat, left_out, visit); !status.ok()) return status;
   return landmarks;
 }
 
@@ -128,11 +161,11 @@ absl::StatusOr<StereoPair> ReadClusterCameras(const Path& folder) {
       !std::filesystem::exists(path, error) && std::filesystem::exists(other, error)) {
     path = other;
   }
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
+  auto lines = ReadWordRows(path, kFormat);
   if (!lines.ok()) return lines.status();
-  if (lines->size() != 6) {
+  if (lines->rows.size() != 6) {
     return absl::InvalidArgumentError(absl::StrCat(
-        path.string(), ": ", lines->size(), " lines of numbers, expected two matrices of 3"));
+        path.string(), ": ", lines->rows.size(), " lines of numbers, expected two matrices of 3"));
   }
   const auto left = TakeProjection(*lines, 0);
   if (!left.ok()) return left.status();

@@ -23,14 +23,15 @@ std::optional<double> Median(std::vector<double> values) {
 }
 
 // What moves points of a cluster, as the camera sees them, from one frame to the other.
-std::optional<Pose> Between(const std::vector<ClusterPose>& then,
-                            const std::vector<ClusterPose>& now, ObjectId label,
+std::optional<Pose> Between(const ClusterFrame& then, const ClusterFrame& now, ObjectId label,
                             QuaternionOrder order) {
-  const auto cluster = static_cast<std::size_t>(label);
-  if (cluster >= now.size()) return std::nullopt;
-  const Pose T_S_W = Inverse(now[0].In(order)), T_W_S = then[0].In(order);
+  const Pose T_S_W = Inverse(now.camera.In(order)), T_W_S = then.camera.In(order);
   if (label == kStaticLabel) return T_S_W * T_W_S;
-  return T_S_W * now[cluster].In(order) * Inverse(then[cluster].In(order)) * T_W_S;
+  const auto index = static_cast<std::size_t>(label - 1);
+  if (index >= now.clusters.size() || !now.clusters[index] || !then.clusters[index]) {
+    return std::nullopt;
+  }
+  return T_S_W * now.clusters[index]->In(order) * Inverse(then.clusters[index]->In(order)) * T_W_S;
 }
 
 const ClusterPoint* Find(const ClusterPoints& points, int landmark) {
@@ -39,7 +40,7 @@ const ClusterPoint* Find(const ClusterPoints& points, int landmark) {
 }
 
 struct View {
-  const std::vector<ClusterPose>& poses;
+  const ClusterFrame& poses;
   ClusterPoints points;
 };
 

@@ -24,6 +24,7 @@ struct Logs {
   std::vector<RecordedPose> poses;
   DynosamObjects object_poses, object_motions;
   DynosamPoints points;
+  LeftOut left_out;
 };
 
 // What frames are made of besides poses. Shared by the copies of a FrameSource.
@@ -34,7 +35,7 @@ struct Content {
 };
 
 // Rows that become nothing.
-struct LeftOut {
+struct Unused {
   std::size_t without_pose = 0;  // of frames that have no camera pose
   std::size_t without_start = 0;
   std::size_t too_far_turned = 0;
@@ -83,17 +84,17 @@ void AddMotionsOverGaps(const Logs& logs, std::map<int, std::vector<ObjectMotion
   }
 }
 
-std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, LeftOut& left_out) {
+std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, Unused& unused) {
   std::map<int, std::vector<ObjectMotion>> motions;
   for (const auto& [key, H_W] : logs.object_motions) {
     const auto [frame, id] = key;
     const RecordedPose* const start = StartOf(logs, frame, id, H_W);
     if (PoseOf(logs.poses, frame) == nullptr) {
-      ++left_out.without_pose;
+      ++unused.without_pose;
     } else if (start == nullptr) {
-      ++left_out.without_start;
+      ++unused.without_start;
     } else if (Turn_rad(H_W) > kMaxTurn_rad) {
-      ++left_out.too_far_turned;
+      ++unused.too_far_turned;
     } else {
       motions[frame].push_back({id, H_W, start->stamp});
     }
@@ -102,13 +103,13 @@ std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, LeftOut& le
   return motions;
 }
 
-std::vector<RecordedBox> BoxesOf(const Logs& logs, LeftOut& left_out) {
+std::vector<RecordedBox> BoxesOf(const Logs& logs, Unused& unused) {
   constexpr int kNotSaid = -1;
   std::vector<RecordedBox> boxes;
   for (const auto& [key, T_W_B] : logs.object_poses) {
     const auto [frame, id] = key;
     if (PoseOf(logs.poses, frame) == nullptr) {
-      ++left_out.without_pose;
+      ++unused.without_pose;
       continue;
     }
     boxes.push_back({frame, id, "object", Eigen::Vector3d::Zero(), T_W_B, kNotSaid});
@@ -118,16 +119,16 @@ std::vector<RecordedBox> BoxesOf(const Logs& logs, LeftOut& left_out) {
 
 absl::StatusOr<Logs> ReadLogs(const DynosamModule& module, const DynosamOptions& options) {
   Logs logs;
-  auto poses = ReadDynosamCamera(module, options.frame_period);
+  auto poses = ReadDynosamCamera(module, options.frame_period, logs.left_out);
   if (!poses.ok()) return poses.status();
-  auto object_poses = ReadDynosamObjects(module.Log("object_pose"));
+  auto object_poses = ReadDynosamObjects(module.Log("object_pose"), logs.left_out);
   if (!object_poses.ok()) return object_poses.status();
-  auto motions = ReadDynosamObjects(module.Log("object_motion"));
+  auto motions = ReadDynosamObjects(module.Log("object_motion"), logs.left_out);
   if (!motions.ok()) return motions.status();
   logs.poses = *std::move(poses);
   logs.object_poses = *std::move(object_poses);
   logs.object_motions = *std::move(motions);
-  auto points = ReadDynosamPoints(module.Log("map_points"), logs.poses);
+  auto points = ReadDynosamPoints(module.Log("map_points"), logs.poses, logs.left_out);
   if (points.ok()) {
     logs.points = *std::move(points);
   } else if (!absl::IsNotFound(points.status()) || !options.allow_missing_points) {
@@ -161,15 +162,15 @@ void Fill(const Content& content, Frame& frame) {
   }
 }
 
-std::string Described(const std::string& name, const Content& content, const LeftOut& left_out) {
+std::string Described(const std::string& name, const Content& content, const Unused& unused) {
   std::vector<std::string> parts = {name};
   const auto add = [&parts](std::size_t count, const char* what) {
     if (count > 0) parts.push_back(absl::StrCat(count, " ", what));
   };
   add(content.points.unframed_W.size(), "static points of no frame come with the first");
-  add(left_out.without_pose, "rows of frames without a camera pose are left out");
-  add(left_out.without_start, "motions that start at no known frame are left out");
-  add(left_out.too_far_turned, "motions of more than 0.9 half turns are left out");
+  add(unused.without_pose, "rows of frames without a camera pose are left out");
+  add(unused.without_start, "motions that start at no known frame are left out");
+  add(unused.too_far_turned, "motions of more than 0.9 half turns are left out");
   return absl::StrJoin(parts, "; ");
 }
 
@@ -179,10 +180,10 @@ int FirstFrame(const std::vector<RecordedPose>& poses, int from) {
 }
 
 std::shared_ptr<const Content> ContentOf(Logs& logs, const DynosamOptions& options,
-                                         LeftOut& left_out) {
+                                         Unused& unused) {
   const auto content = std::make_shared<Content>();
-  left_out.without_pose += logs.points.without_pose;
-  auto motions = MotionsOf(logs, left_out);
+  unused.without_pose += logs.points.without_pose;
+  auto motions = MotionsOf(logs, unused);
   if (options.objects == LidarObjects::kMotions) content->motions = std::move(motions);
   content->points = std::move(logs.points);
   content->first_frame = FirstFrame(logs.poses, options.first_frame);
@@ -200,8 +201,8 @@ absl::StatusOr<LidarFolder> OpenDynosam(const Path& given, const DynosamOptions&
   if (!module.ok()) return module.status();
   auto logs = ReadLogs(*module, options);
   if (!logs.ok()) return logs.status();
-  LeftOut left_out;
-  const auto content = ContentOf(*logs, options, left_out);
+  Unused unused;
+  const auto content = ContentOf(*logs, options, unused);
   // Motions are the log's, not those between boxes.
   const bool poses_asked = options.objects == LidarObjects::kPoses;
   LidarScans scans;
@@ -210,14 +211,15 @@ absl::StatusOr<LidarFolder> OpenDynosam(const Path& given, const DynosamOptions&
                    .first_frame = options.first_frame,
                    .last_frame = options.last_frame,
                    .sensor_id = options.sensor_id};
-  scans.boxes = BoxesOf(*logs, left_out);
+  scans.boxes = BoxesOf(*logs, unused);
   scans.poses = std::move(logs->poses);
+  *scans.left_out = std::move(logs->left_out);
   scans.points_of = [log = module->Log("camera_pose")](int) { return log; };
   scans.read = [content](const Path&, std::span<const RecordedBox>, Frame& frame) {
     Fill(*content, frame);
     return absl::OkStatus();
   };
-  const std::string description = Described(scans.name, *content, left_out);
+  const std::string description = Described(scans.name, *content, unused);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));
   if (result.ok()) result->frames.description = description;
   return result;

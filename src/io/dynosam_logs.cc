@@ -1,15 +1,15 @@
 #include "io/dynosam_logs.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <set>
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "io/header_table.h"
 #include "io/lidar_frames.h"
-#include "io/number_rows.h"
+#include "io/lidar_tables.h"
 
 namespace clearway {
 namespace {
@@ -49,23 +49,27 @@ std::set<std::string> ModulesIn(const Path& folder) {
 
 using Stamps = std::map<std::int64_t, Time>;
 
-absl::StatusOr<Stamps> ReadStamps(const Path& path) {
-  constexpr std::array<NumberColumn, 2> kColumns = {{{"frame_id"}, {"timestamp [ns]"}}};
-  Stamps stamps;
-  const absl::Status status = VisitRows(path, kMaxPoseBytes, kColumns, [&](NumberRow& row) {
-    const std::int64_t frame = row.Integer(0, 0, kMaxFrame);
-    stamps[frame] = TimeFromNanoseconds(row.Integer(1, 0, kFarthest_ns));
-    return absl::OkStatus();
-  });
-  if (!status.ok()) return status;
-  return stamps;
+// DynoSAM's fork ends no last line.
+HeaderFormat LogFormat(std::uint64_t max_bytes) { return {max_bytes, LastLine::kMayBeOpen}; }
+
+// Those named, then a pose.
+std::vector<WantedColumn> WithPose(std::vector<WantedColumn> columns) {
+  for (const char* name : {"tx", "ty", "tz", "qx", "qy", "qz", "qw"}) columns.push_back({name});
+  return columns;
 }
 
-absl::Status CheckOrder(const NumberRow& row, const RecordedPose& last, const RecordedPose& pose) {
-  if (pose.frame > last.frame && pose.stamp > last.stamp) return absl::OkStatus();
-  return row.Error(absl::StrCat("frame ", pose.frame, " at ", ToNanoseconds(pose.stamp),
-                                " ns does not come after frame ", last.frame, " at ",
-                                ToNanoseconds(last.stamp), " ns"));
+absl::StatusOr<Stamps> ReadStamps(const Path& path, LeftOut& left_out) {
+  const std::vector<WantedColumn> columns = {{"frame_id"}, {"timestamp [ns]"}};
+  Stamps stamps;
+  const auto visit = [&](Row& row) {
+    const std::int64_t frame = row.Integer(0, 0, kMaxFrame);
+    const Time stamp = TimeFromNanoseconds(row.Integer(1, 0, kFarthest_ns));
+    if (!row.status().ok() || stamps.try_emplace(frame, stamp).second) return row.status();
+    return row.Error(absl::StrCat("a second row of frame ", frame));
+  };
+  const auto status = VisitTable(path, LogFormat(kMaxPoseBytes), columns, left_out, visit);
+  if (!status.ok()) return status;
+  return stamps;
 }
 
 }  // namespace
@@ -90,62 +94,63 @@ absl::StatusOr<DynosamModule> FindDynosamModule(const Path& path) {
 }
 
 absl::StatusOr<std::vector<RecordedPose>> ReadDynosamCamera(const DynosamModule& module,
-                                                            Duration period) {
-  constexpr std::array<NumberColumn, 9> kColumns = {
-      {{"frame_id"}, {"tx"}, {"ty"}, {"tz"}, {"qx"}, {"qy"}, {"qz"}, {"qw"}, {"timestamp", true}}};
+                                                            Duration period, LeftOut& left_out) {
+  constexpr std::size_t kStamp = 8;
+  auto columns = WithPose({{"frame_id"}});
+  columns.push_back({"timestamp", /*optional=*/true});
   const Path stamp_path = module.folder / "frame_id_timestamp.csv";
   std::error_code error;
   const bool listed = std::filesystem::exists(stamp_path, error);
-  const auto stamps = listed ? ReadStamps(stamp_path) : Stamps();
+  const auto stamps = listed ? ReadStamps(stamp_path, left_out) : Stamps();
   if (!stamps.ok()) return stamps.status();
-  std::vector<RecordedPose> poses;
-  const auto stamp_of = [&](NumberRow& row, std::int64_t frame) -> absl::StatusOr<Time> {
-    if (row.Has(8)) return TimeFromNanoseconds(row.Integer(8, 0, kFarthest_ns));
+  std::vector<TablePose> rows;
+  const auto stamp_of = [&](Row& row, std::int64_t frame) -> absl::StatusOr<Time> {
+    if (row.Has(kStamp)) return TimeFromNanoseconds(row.Integer(kStamp, 0, kFarthest_ns));
     if (!listed) return TimeFromNanoseconds(frame * period.count());
     if (const auto stamp = stamps->find(frame); stamp != stamps->end()) return stamp->second;
     return row.Error(absl::StrCat("frame ", frame, " has no row in ", stamp_path.string()));
   };
-  const absl::Status status =
-      VisitRows(module.Log("camera_pose"), kMaxPoseBytes, kColumns, [&](NumberRow& row) {
-        const auto frame = static_cast<int>(row.Integer(0, 0, kMaxFrame));
-        const Pose T_W_S = row.PoseFrom(1);
-        const auto stamp = stamp_of(row, frame);
-        if (!row.status().ok()) return row.status();
-        if (!stamp.ok()) return stamp.status();
-        poses.push_back({frame, *stamp, T_W_S});
-        if (poses.size() == 1) return absl::OkStatus();
-        return CheckOrder(row, *std::prev(poses.end(), 2), poses.back());
-      });
+  const auto visit = [&](Row& row) {
+    const auto frame = static_cast<int>(row.Integer(0, 0, kMaxFrame));
+    const Pose T_W_S = row.PoseFrom(1);
+    const auto stamp = stamp_of(row, frame);
+    if (!row.status().ok()) return row.status();
+    if (!stamp.ok()) return stamp.status();
+    rows.push_back({{frame, *stamp, T_W_S}, row.line()});
+    return absl::OkStatus();
+  };
+  const Path path = module.Log("camera_pose");
+  const auto status = VisitTable(path, LogFormat(kMaxPoseBytes), columns, left_out, visit);
   if (!status.ok()) return status;
-  if (poses.empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(module.Log("camera_pose").string(), ": no pose under the header"));
+  if (rows.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no pose under the header"));
   }
-  return poses;
+  return InOrder(path, std::move(rows), left_out);
 }
 
-absl::StatusOr<DynosamObjects> ReadDynosamObjects(const Path& path) {
-  constexpr std::array<NumberColumn, 9> kColumns = {
-      {{"frame_id"}, {"object_id"}, {"tx"}, {"ty"}, {"tz"}, {"qx"}, {"qy"}, {"qz"}, {"qw"}}};
+absl::StatusOr<DynosamObjects> ReadDynosamObjects(const Path& path, LeftOut& left_out) {
   DynosamObjects objects;
-  const absl::Status status = VisitRows(path, kMaxPoseBytes, kColumns, [&](NumberRow& row) {
+  const auto visit = [&](Row& row) {
     const auto frame = static_cast<int>(row.Integer(0, 0, kMaxFrame));
     const auto id = static_cast<ObjectId>(row.Integer(1, 1, kMaxId));
     const Pose pose = row.PoseFrom(2);
     if (!row.status().ok() || objects.try_emplace({frame, id}, pose).second) return row.status();
     return row.Error(absl::StrCat("a second row of object ", id, " in frame ", frame));
-  });
+  };
+  const auto status = VisitTable(path, LogFormat(kMaxPoseBytes),
+                                 WithPose({{"frame_id"}, {"object_id"}}), left_out, visit);
   if (!status.ok()) return status;
   return objects;
 }
 
 absl::StatusOr<DynosamPoints> ReadDynosamPoints(const Path& path,
-                                                const std::vector<RecordedPose>& poses) {
-  constexpr std::array<NumberColumn, 5> kColumns = {
-      {{"frame_id"}, {"object_id"}, {"x_world"}, {"y_world"}, {"z_world"}}};
+                                                const std::vector<RecordedPose>& poses,
+                                                LeftOut& left_out) {
+  const std::vector<WantedColumn> columns = {
+      {"frame_id"}, {"object_id"}, {"x_world"}, {"y_world"}, {"z_world"}};
   DynosamPoints points;
   std::size_t count = 0;
-  const absl::Status status = VisitRows(path, kMaxPointBytes, kColumns, [&](NumberRow& row) {
+  const auto visit = [&](Row& row) -> absl::Status {
     const auto id = static_cast<ObjectId>(row.Integer(1, 0, kMaxId));
     const Eigen::Vector3d p_W(row.Number(2), row.Number(3), row.Number(4));
     if (++count > kMaxPoints) {
@@ -153,7 +158,7 @@ absl::StatusOr<DynosamPoints> ReadDynosamPoints(const Path& path,
           absl::StrCat(path.string(), ": more than ", kMaxPoints, " points"));
     }
     if (id == kStaticLabel && row.Text(0) == kNoFrame) {
-      points.unframed_W.push_back(p_W);
+      if (row.status().ok()) points.unframed_W.push_back(p_W);
       return row.status();
     }
     const RecordedPose* const pose = PoseOf(poses, row.Integer(0, 0, kMaxFrame));
@@ -166,7 +171,8 @@ absl::StatusOr<DynosamPoints> ReadDynosamPoints(const Path& path,
     cloud.points_S.push_back((Inverse(pose->T_W_S) * p_W).cast<float>());
     cloud.labels.push_back(id);
     return absl::OkStatus();
-  });
+  };
+  const auto status = VisitTable(path, LogFormat(kMaxPointBytes), columns, left_out, visit);
   if (!status.ok()) return status;
   return points;
 }

@@ -26,15 +26,18 @@ struct DynosamModule {
 // preferred.
 absl::StatusOr<DynosamModule> FindDynosamModule(const std::filesystem::path& path);
 
+// In each table bad rows, and second ones of a frame (and object), are left out.
+
 // T_W_S by ascending frames and stamps. Stamps are the column timestamp, else those of
 // frame_id_timestamp.csv, else a period for each number.
 absl::StatusOr<std::vector<RecordedPose>> ReadDynosamCamera(const DynosamModule& module,
-                                                            Duration period);
+                                                            Duration period, LeftOut& left_out);
 
 // By (frame, object): T_W_B of object_pose, or the motion of object_motion in W from the frame
 // before.
 using DynosamObjects = std::map<std::pair<int, ObjectId>, Pose>;
-absl::StatusOr<DynosamObjects> ReadDynosamObjects(const std::filesystem::path& path);
+absl::StatusOr<DynosamObjects> ReadDynosamObjects(const std::filesystem::path& path,
+                                                  LeftOut& left_out);
 
 struct DynosamCloud {
   std::vector<Eigen::Vector3f> points_S;
@@ -46,6 +49,7 @@ struct DynosamPoints {
   std::size_t without_pose = 0;             // of frames that have none, left out
 };
 absl::StatusOr<DynosamPoints> ReadDynosamPoints(const std::filesystem::path& path,
-                                                const std::vector<RecordedPose>& poses);
+                                                const std::vector<RecordedPose>& poses,
+                                                LeftOut& left_out);
 
 }  // namespace clearway

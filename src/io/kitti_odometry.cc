@@ -9,12 +9,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
 #include "io/lidar_frames.h"
 #include "io/pose_table.h"
 #include "io/rigid_matrix.h"
 #include "io/velodyne_points.h"
-#include "io/word_lines.h"
+#include "io/word_table.h"
 
 namespace clearway {
 namespace {
@@ -39,14 +39,14 @@ Path Plain(const Path& given) {
 
 // From the velodyne to the left camera.
 absl::StatusOr<Pose> ReadMount(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
+  auto lines = ReadWordRows(path, {.last = LastLine::kMayBeOpen});
   if (!lines.ok()) return lines.status();
-  for (Words& line : *lines) {
+  for (Row& line : lines->rows) {
     if (line.Text(0) != "Tr:" && line.Text(0) != "Tr") continue;
-    if (line.size() != 13) return WrongCount(line, "a key and 12");
+    if (line.size() != 13) return line.WrongCount("a key and 12");
     Eigen::Matrix<double, 3, 4> matrix;
     for (int i = 0; i < 12; ++i) {
-      matrix(i / 4, i % 4) = line.Number(static_cast<std::size_t>(i) + 1);
+      matrix(i / 4, i % 4) = line.Coordinate(static_cast<std::size_t>(i) + 1);
     }
     if (!line.status().ok()) return line.status();
     return PoseOfMatrix(matrix, line.where());
@@ -67,18 +67,16 @@ absl::StatusOr<Path> PosesOf(const Path& sequence) {
                                           "; the testing half of KITTI has no poses"));
 }
 
-absl::StatusOr<std::vector<RecordedPose>> SensorPoses(const Path& sequence) {
+absl::StatusOr<std::vector<RecordedPose>> SensorPoses(const Path& sequence, LeftOut& left_out) {
   const auto T_C_S = ReadMount(sequence / "calib.txt");
   if (!T_C_S.ok()) return T_C_S.status();
   const auto path = PosesOf(sequence);
   if (!path.ok()) return path.status();
-  const auto table = ReadKittiPoses(*path, sequence / "times.txt", kPeriod);
+  auto table = ReadKittiPoses(*path, sequence / "times.txt", kPeriod, left_out);
   if (!table.ok()) return table.status();
-  std::vector<RecordedPose> poses;
+  std::vector<RecordedPose> poses = InOrder(*path, std::move(table->rows), left_out);
   const Pose T_S_C = Inverse(*T_C_S);
-  for (const PoseRow& row : table->rows) {
-    poses.push_back({static_cast<int>(poses.size()), row.stamp, T_S_C * row.pose * *T_C_S});
-  }
+  for (RecordedPose& pose : poses) pose.T_W_S = T_S_C * pose.T_W_S * *T_C_S;
   return poses;
 }
 
@@ -133,12 +131,12 @@ bool IsKittiOdometry(const Path& sequence) {
 absl::StatusOr<LidarFolder> OpenKittiOdometry(const Path& given,
                                               const KittiOdometryOptions& options) {
   const Path sequence = Plain(given);
-  auto poses = SensorPoses(sequence);
+  LidarScans scans;
+  auto poses = SensorPoses(sequence, *scans.left_out);
   if (!poses.ok()) return poses.status();
   std::error_code error;
   const Path label_folder = sequence / "labels";
   const bool labelled = std::filesystem::is_directory(label_folder, error);
-  LidarScans scans;
   scans.name = absl::StrCat("KITTI odometry sequence ", sequence.string());
   scans.options = options.frames;
   scans.options.objects = LidarObjects::kNone;

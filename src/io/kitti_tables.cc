@@ -13,35 +13,37 @@
 
 #include "absl/strings/str_cat.h"
 #include "io/rigid_matrix.h"
-#include "io/utf8.h"
-#include "io/word_lines.h"
+#include "io/word_table.h"
 
 namespace clearway {
 namespace {
 
 using Path = std::filesystem::path;
 
+constexpr std::int64_t kMaxNumber = 99'999'999;  // of frames and tracks
+
 // The numbers behind a key, of which the object and the tracking benchmark spell some otherwise.
-absl::StatusOr<std::vector<double>> Matrix(std::vector<Words>& lines, const Path& path,
-                                           std::initializer_list<std::string> keys,
+absl::StatusOr<std::vector<double>> Matrix(WordRows& lines, const Path& path,
+                                           std::initializer_list<std::string_view> keys,
                                            std::size_t count) {
-  for (Words& line : lines) {
-    std::string key = line.Text(0);
-    if (key.ends_with(':')) key.pop_back();
+  for (Row& line : lines.rows) {
+    std::string_view key = line.Text(0);
+    if (key.ends_with(':')) key.remove_suffix(1);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
-    if (line.size() != count + 1) return WrongCount(line, absl::StrCat("a key and ", count));
+    if (line.size() != count + 1) return line.WrongCount(absl::StrCat("a key and ", count));
     std::vector<double> numbers;
-    for (std::size_t i = 1; i <= count; ++i) numbers.push_back(line.Number(i));
+    for (std::size_t i = 1; i <= count; ++i) numbers.push_back(line.Coordinate(i));
     if (!line.status().ok()) return line.status();
     return numbers;
   }
-  return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no ", *keys.begin()));
+  return absl::InvalidArgumentError(
+      absl::StrCat(path.string(), ": no ", std::string(*keys.begin())));
 }
 
 using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
 // What P2 takes is the camera's frame, rectified.
-absl::StatusOr<Pose> CameraFromSensor(std::vector<Words>& lines, const Path& path) {
+absl::StatusOr<Pose> CameraFromSensor(WordRows& lines, const Path& path) {
   const auto rectify = Matrix(lines, path, {"R_rect", "R0_rect"}, 9);
   if (!rectify.ok()) return rectify.status();
   const auto mounted = Matrix(lines, path, {"Tr_velo_cam", "Tr_velo_to_cam"}, 12);
@@ -52,7 +54,7 @@ absl::StatusOr<Pose> CameraFromSensor(std::vector<Words>& lines, const Path& pat
 }
 
 // P2, of which the left three columns turn directions to pixels and back.
-absl::StatusOr<Matrix34> Projection(std::vector<Words>& lines, const Path& path) {
+absl::StatusOr<Matrix34> Projection(WordRows& lines, const Path& path) {
   constexpr double kFlat = 1e-9;  // over a cube of the same norm
   const auto numbers = Matrix(lines, path, {"P2"}, 12);
   if (!numbers.ok()) return numbers.status();
@@ -77,7 +79,7 @@ Pose BoxInCamera(const Eigen::Vector3d& bottom_C, double height_m, double turn_r
 }  // namespace
 
 absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
+  auto lines = ReadWordRows(path, {.last = LastLine::kMayBeOpen});
   if (!lines.ok()) return lines.status();
   const auto projection = Projection(*lines, path);
   if (!projection.ok()) return projection.status();
@@ -92,19 +94,21 @@ absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
 }
 
 // The raw data's development kit: Mercator's projection, scaled to be true where the drive begins.
-absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
+absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const Path& path,
+                                                               LeftOut& left_out) {
   constexpr double kEarthRadius_m = 6378137, kRadPerDeg = std::numbers::pi / 180;
   constexpr std::size_t kFewest = 6;  // latitude, longitude, altitude, roll, pitch, yaw
-  auto lines = ReadWordLines(path, LastLine::kEnds);
+  auto lines = ReadWordRows(path, {}, /*blank_lines=*/true);
   if (!lines.ok()) return lines.status();
-  std::vector<Pose> T_W_I;
+  std::vector<std::optional<Pose>> T_W_I;
   std::optional<std::pair<double, Eigen::Vector3d>> origin;  // scale, and the first place
-  for (Words& line : *lines) {
-    if (line.size() < kFewest) return WrongCount(line, "30");
+  const auto visit = [&](Row& row) {
+    if (row.size() < kFewest) return row.WrongCount("30");
     double value[kFewest];
-    for (std::size_t i = 0; i < kFewest; ++i) value[i] = line.Number(i);
-    if (std::abs(value[0]) >= 90) line.Fail(0, "a latitude");
-    if (!line.status().ok()) return line.status();
+    for (std::size_t i = 0; i < kFewest; ++i) value[i] = row.Coordinate(i);
+    row.CheckNumbers(kFewest, row.size());
+    if (std::abs(value[0]) >= 90) row.Fail(0, "a latitude");
+    if (!row.status().ok()) return row.status();
     const double north_rad = value[0] * kRadPerDeg;
     const double scale_m = kEarthRadius_m * (origin ? origin->first : std::cos(north_rad));
     const Eigen::Vector3d place(scale_m * value[1] * kRadPerDeg,
@@ -114,49 +118,88 @@ absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const Path& path) {
     const Eigen::Quaterniond turn = Eigen::AngleAxisd(value[5], Eigen::Vector3d::UnitZ()) *
                                     Eigen::AngleAxisd(value[4], Eigen::Vector3d::UnitY()) *
                                     Eigen::AngleAxisd(value[3], Eigen::Vector3d::UnitX());
-    T_W_I.push_back({turn, place - origin->second});
+    T_W_I.back() = Pose{turn, place - origin->second};
+    return absl::OkStatus();
+  };
+  RowPolicy policy(left_out);
+  for (Row& row : lines->rows) {
+    T_W_I.emplace_back();
+    if (auto status = policy.Visit(row, visit); !status.ok()) return status;
   }
   if (T_W_I.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no frame"));
   }
+  if (auto status = policy.Finish(); !status.ok()) return status;
   return T_W_I;
 }
 
+namespace {
+
 // Columns: frame, track, type, truncated, occluded, alpha, four of the box in the image, height,
-// width, length, x, y, z, rotation_y, and of results a score.
-absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kEnds);
-  if (!lines.ok()) return lines.status();
-  KittiLabels labels;
-  std::map<std::pair<int, int>, std::string> seen;  // where, by frame and track
-  for (Words& line : *lines) {
-    if (line.size() != 17 && line.size() != 18) return WrongCount(line, "17, or 18 with a score");
-    const int frame = line.Integer(0, 0);
-    if (line.Text(2) == "DontCare") {
-      labels.unlabelled.insert(
-          {frame, {line.Number(6), line.Number(7), line.Number(8), line.Number(9)}});
-    } else {
-      KittiBox box;
-      box.frame = frame;
-      box.track = line.Integer(1, 0);
-      if (!IsPlainText(line.Text(2))) line.Fail(2, "text in UTF-8 without control characters");
-      box.type = line.Text(2);
-      box.size_m = {line.Number(12), line.Number(11), line.Number(10)};
-      for (std::size_t i = 10; i <= 12; ++i) {
-        if (line.Number(i) <= 0) line.Fail(i, "a length above 0");
-      }
-      const Eigen::Vector3d bottom_C(line.Number(13), line.Number(14), line.Number(15));
-      box.T_C_B = BoxInCamera(bottom_C, box.size_m.z(), line.Number(16));
-      const auto [first, is_new] = seen.try_emplace({frame, box.track}, line.where());
-      if (!is_new && line.status().ok()) {
-        return absl::InvalidArgumentError(absl::StrCat(line.where(), ": a second box of track ",
-                                                       box.track, " in frame ", frame,
-                                                       "; the first: ", first->second));
-      }
-      labels.boxes.push_back(std::move(box));
-    }
-    if (!line.status().ok()) return line.status();
+// width, length, x, y, z, rotation_y, and of results a score. The raw data's type
+// "Person (sitting)" is two words.
+struct LabelColumns {
+  explicit LabelColumns(const Row& row)
+      : has_two_words(row.size() > 3 && row.Text(3).starts_with('(') && row.Text(3).ends_with(')')),
+        numbers(has_two_words ? 4 : 3) {}
+
+  bool HasAll(const Row& row) const {
+    return row.size() == numbers + 14 || row.size() == numbers + 15;
   }
+  std::string TypeOf(Row& row) const {
+    const std::string type = row.PlainText(2);
+    return has_two_words ? absl::StrCat(type, " ", row.PlainText(3)) : type;
+  }
+
+  bool has_two_words;
+  std::size_t numbers;  // truncated
+};
+
+KittiBox TakeBox(Row& row, const LabelColumns& columns) {
+  const std::size_t size = columns.numbers + 7, place = size + 3;
+  KittiBox box;
+  box.line = row.line();
+  box.frame = static_cast<int>(row.Integer(0, 0, kMaxNumber));
+  box.track = static_cast<int>(row.Integer(1, 0, kMaxNumber));
+  box.type = columns.TypeOf(row);
+  box.size_m = {row.Coordinate(size + 2), row.Coordinate(size + 1), row.Coordinate(size)};
+  for (std::size_t i = size; i < place; ++i) {
+    if (row.Coordinate(i) <= 0) row.Fail(i, "a length above 0");
+  }
+  const Eigen::Vector3d bottom_C(row.Coordinate(place), row.Coordinate(place + 1),
+                                 row.Coordinate(place + 2));
+  box.T_C_B = BoxInCamera(bottom_C, box.size_m.z(), row.Coordinate(place + 3));
+  return box;
+}
+
+}  // namespace
+
+absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path, LeftOut& left_out) {
+  KittiLabels labels;
+  std::map<std::pair<int, int>, int> seen;  // the line, by frame and track
+  const auto visit = [&](Row& row) {
+    const LabelColumns columns(row);
+    if (!columns.HasAll(row)) return row.WrongCount("17, or 18 with a score");
+    row.CheckNumbers(columns.numbers, row.size());
+    if (row.Text(2) == "DontCare") {
+      const std::size_t image = columns.numbers + 3;
+      const ImageRegion region{row.Coordinate(image), row.Coordinate(image + 1),
+                               row.Coordinate(image + 2), row.Coordinate(image + 3)};
+      const auto frame = static_cast<int>(row.Integer(0, 0, kMaxNumber));
+      if (row.status().ok()) labels.unlabelled.insert({frame, region});
+      return row.status();
+    }
+    KittiBox box = TakeBox(row, columns);
+    if (!row.status().ok()) return row.status();
+    const auto [first, is_new] = seen.try_emplace({box.frame, box.track}, row.line());
+    if (!is_new) {
+      return row.Error(absl::StrCat("a second box of track ", box.track, " in frame ", box.frame,
+                                    "; the first: line ", first->second));
+    }
+    labels.boxes.push_back(std::move(box));
+    return absl::OkStatus();
+  };
+  if (auto status = VisitWords(path, {}, left_out, visit); !status.ok()) return status;
   return labels;
 }
 

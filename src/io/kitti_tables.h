@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -18,8 +20,9 @@ struct KittiCalibration {
 };
 absl::StatusOr<KittiCalibration> ReadKittiCalibration(const std::filesystem::path& path);
 
-// T_W_I, a line for each frame.
-absl::StatusOr<std::vector<Pose>> ReadKittiOxts(const std::filesystem::path& path);
+// T_W_I, a line for each frame; a frame whose line is bad or empty has none.
+absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const std::filesystem::path& path,
+                                                               LeftOut& left_out);
 
 // In pixels of the left colour image.
 struct ImageRegion {
@@ -27,6 +30,7 @@ struct ImageRegion {
 };
 // A track's box at a frame, in C.
 struct KittiBox {
+  int line = 0;
   int frame = 0;
   int track = 0;
   std::string type;
@@ -37,6 +41,7 @@ struct KittiLabels {
   std::vector<KittiBox> boxes;
   std::multimap<int, ImageRegion> unlabelled;  // DontCare, by frame
 };
-absl::StatusOr<KittiLabels> ReadKittiLabels(const std::filesystem::path& path);
+// Bad rows, and second ones of a frame and track, are left out.
+absl::StatusOr<KittiLabels> ReadKittiLabels(const std::filesystem::path& path, LeftOut& left_out);
 
 }  // namespace clearway

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/base/file.h"
 #include "io/kitti_tables.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
@@ -73,30 +76,44 @@ class Labeller {
   std::multimap<int, ImageRegion> unlabelled_;
 };
 
-std::vector<RecordedPose> SensorPoses(const std::vector<Pose>& T_W_I, const Pose& T_S_I) {
+std::vector<RecordedPose> SensorPoses(const std::vector<std::optional<Pose>>& T_W_I,
+                                      const Pose& T_S_I) {
   std::vector<RecordedPose> poses;
   for (std::size_t k = 0; k < T_W_I.size(); ++k) {
+    if (!T_W_I[k]) continue;
     poses.push_back({static_cast<int>(k),
                      TimeFromNanoseconds(static_cast<std::int64_t>(k) * kNanosecondsPerFrame),
-                     T_W_I[k] * Inverse(T_S_I)});
+                     *T_W_I[k] * Inverse(T_S_I)});
   }
   return poses;
 }
 
+// By ascending (frame, id). Boxes of frames without a pose are left out; if all are, the tables do
+// not belong together.
 absl::StatusOr<std::vector<RecordedBox>> BoxesInWorld(const std::vector<KittiBox>& boxes,
                                                       const std::vector<RecordedPose>& poses,
-                                                      const Pose& T_C_S, const Path& path) {
+                                                      const Pose& T_C_S, const Path& path,
+                                                      LeftOut& left_out) {
   std::vector<RecordedBox> result;
+  std::string first_left_out;
   for (const KittiBox& box : boxes) {
-    if (static_cast<std::size_t>(box.frame) >= poses.size()) {
-      return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", box.frame,
-                                                     "; oxts tells of ", poses.size(), " frames"));
+    const RecordedPose* const pose = PoseOf(poses, box.frame);
+    if (pose == nullptr) {
+      std::string why = absl::StrCat(path.string(), ", line ", box.line, ": frame ", box.frame,
+                                     " has no pose in oxts");
+      if (first_left_out.empty()) first_left_out = why;
+      left_out.AddRow(std::move(why));
+      continue;
     }
-    const Pose T_W_C = poses[box.frame].T_W_S * Inverse(T_C_S);
+    const Pose T_W_C = pose->T_W_S * Inverse(T_C_S);
     constexpr int kNotSaid = -1;
     result.push_back({box.frame, box.track + 1, box.type, box.size_m, T_W_C * box.T_C_B, kNotSaid});
   }
-  if (auto status = SortBoxes(path, result); !status.ok()) return status;
+  if (result.empty() && !boxes.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(first_left_out, "; nor has any other box"));
+  }
+  std::ranges::sort(result, {},
+                    [](const RecordedBox& box) { return std::pair(box.frame, box.id); });
   return result;
 }
 
@@ -119,21 +136,22 @@ absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
   }
   const auto calibration = ReadKittiCalibration(root / "calib" / table);
   if (!calibration.ok()) return calibration.status();
-  const auto T_W_I = ReadKittiOxts(root / "oxts" / table);
+  LidarScans result;
+  const auto T_W_I = ReadKittiOxts(root / "oxts" / table, *result.left_out);
   if (!T_W_I.ok()) return T_W_I.status();
   const Path labels_path = root / "label_02" / table;
-  auto labels = ReadKittiLabels(labels_path);
+  auto labels = ReadKittiLabels(labels_path, *result.left_out);
   if (absl::IsNotFound(labels.status())) {
     return absl::NotFoundError(absl::StrCat(labels.status().message(),
                                             "; without labels (KITTI's testing half) nothing tells "
                                             "what moves"));
   }
   if (!labels.ok()) return labels.status();
-  LidarScans result;
   result.name = absl::StrCat("KITTI tracking sequence ", folder.string());
   result.options = options;
   result.poses = SensorPoses(*T_W_I, calibration->T_S_I);
-  auto boxes = BoxesInWorld(labels->boxes, result.poses, calibration->T_C_S, labels_path);
+  auto boxes =
+      BoxesInWorld(labels->boxes, result.poses, calibration->T_C_S, labels_path, *result.left_out);
   if (!boxes.ok()) return boxes.status();
   result.boxes = *std::move(boxes);
   result.of_gps = true;

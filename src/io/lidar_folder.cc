@@ -2,13 +2,14 @@
 
 #include <bit>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
 
@@ -89,9 +90,11 @@ absl::StatusOr<std::string> TableSuffix(const Path& folder, LidarPoses poses) {
 absl::StatusOr<LidarFolder> OpenLidarFolder(const Path& folder, const LidarFolderOptions& options) {
   const absl::StatusOr<std::string> suffix = TableSuffix(folder, options.poses);
   if (!suffix.ok()) return suffix.status();
-  const auto poses = ReadLidarPoses(folder / absl::StrCat("poses", *suffix, ".csv"));
+  const auto left_out = std::make_shared<LeftOut>();
+  const auto poses = ReadLidarPoses(folder / absl::StrCat("poses", *suffix, ".csv"), *left_out);
   if (!poses.ok()) return poses.status();
-  const auto boxes = ReadLidarBoxes(folder / absl::StrCat("objects", *suffix, ".csv"), *poses);
+  const auto boxes =
+      ReadLidarBoxes(folder / absl::StrCat("objects", *suffix, ".csv"), *poses, *left_out);
   if (!boxes.ok()) return boxes.status();
 
   return FramesOf({.name = absl::StrCat("LiDAR folder ", folder.string()),
@@ -99,6 +102,7 @@ absl::StatusOr<LidarFolder> OpenLidarFolder(const Path& folder, const LidarFolde
                    .poses = *poses,
                    .boxes = *boxes,
                    .of_gps = *suffix == kOxtsSuffix,
+                   .left_out = left_out,
                    .points_of = [folder](int frame) { return PointsPath(folder, frame); },
                    .read = [](const Path& points, std::span<const RecordedBox>,
                               Frame& frame) { return ReadPoints(points, frame); }});

@@ -159,6 +159,7 @@ absl::StatusOr<LidarFolder> FramesOf(LidarScans scans) {
   }
   result.frames.description = open->scans.name;
   result.frames.frame_count = open->poses.size();
+  result.frames.left_out = open->scans.left_out;
   if (open->scans.of_gps) {
     result.frames.sensor_pose_error_m = kGpsError_m;
     result.frames.sensor_pose_error_rad = kGpsError_rad;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct LidarScans {
   std::vector<RecordedPose> poses;  // ascending frames, not empty
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
   bool of_gps = false;              // the poses are of GPS and inertial sensors
+  std::shared_ptr<LeftOut> left_out = std::make_shared<LeftOut>();  // as FrameSource's
   // The file of a frame's points.
   std::function<std::filesystem::path(int frame)> points_of;
   // Sets points and labels of a frame whose boxes these are. Any thread.

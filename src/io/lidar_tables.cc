@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <tuple>
 
 #include "absl/strings/str_cat.h"
-#include "clearway/io/world_origin.h"
-#include "io/csv.h"
+#include "clearway/base/number_text.h"
+#include "io/header_table.h"
 #include "io/lidar_frames.h"
 #include "io/rigid_matrix.h"
 
@@ -16,151 +15,147 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerFrame = 100'000'000;  // KITTI's rate, 10 Hz
 constexpr std::int64_t kMaxFrame = 99'999'999;
-constexpr double kFarthest_m = kMaxFileCoordinate_m, kLongest_m = 1e6;
+constexpr double kLongest_m = 1e6;
+constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
 
-using PoseColumns = std::array<std::size_t, 12>;
-
-absl::StatusOr<PoseColumns> FindPoseColumns(const CsvTable& table) {
-  PoseColumns columns;
-  for (int i = 0; i < 12; ++i) {
-    const absl::StatusOr<std::size_t> column =
-        table.Column(absl::StrCat("T", i / 4, i % 4));  // T00 ... T23
-    if (!column.ok()) return column.status();
-    columns[i] = *column;
-  }
+// Those named, then T00 to T23.
+std::vector<WantedColumn> WithMatrix(std::vector<WantedColumn> columns) {
+  for (int i = 0; i < 12; ++i) columns.push_back({absl::StrCat("T", i / 4, i % 4)});
   return columns;
 }
 
-absl::StatusOr<std::vector<std::size_t>> FindColumns(const CsvTable& table,
-                                                     std::initializer_list<const char*> names) {
-  std::vector<std::size_t> columns;
-  for (const char* name : names) {
-    const absl::StatusOr<std::size_t> column = table.Column(name);
-    if (!column.ok()) return column.status();
-    columns.push_back(*column);
-  }
-  return columns;
-}
-
-// The 3x4 matrix of a row. INVALID_ARGUMENT if its left part is no rotation.
-absl::StatusOr<Pose> ReadPose(const CsvTable& table, std::size_t row, const PoseColumns& columns) {
-  CsvRow reader(table, row);
+// The 3x4 matrix whose numbers begin at a column.
+absl::StatusOr<Pose> TakePose(Row& row, std::size_t first) {
   Eigen::Matrix<double, 3, 4> matrix;
-  for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = reader.NumberWithin(columns[i], kFarthest_m);
-  if (!reader.status().ok()) return reader.status();
-  return PoseOfMatrix(matrix, absl::StrCat(table.Where(row), ", columns T00 to T22"));
+  for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = row.Coordinate(first + i);
+  if (!row.status().ok()) return row.status();
+  return PoseOfMatrix(matrix, absl::StrCat(row.where(), ", columns T00 to T22"));
 }
 
-// Where the columns of a table of boxes are.
-struct BoxColumns {
-  std::vector<std::size_t> fields;  // frame, track, type, l, w, h, n_points
-  PoseColumns pose;
-};
-
-absl::StatusOr<BoxColumns> FindBoxColumns(const CsvTable& table) {
-  const auto fields = FindColumns(table, {"frame", "track", "type", "l", "w", "h", "n_points"});
-  if (!fields.ok()) return fields.status();
-  const auto pose = FindPoseColumns(table);
-  if (!pose.ok()) return pose.status();
-  return BoxColumns{*fields, *pose};
-}
-
-absl::StatusOr<RecordedBox> ReadBox(const CsvTable& table, std::size_t row,
-                                    const BoxColumns& columns) {
-  constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
-  CsvRow reader(table, row);
+absl::StatusOr<RecordedBox> TakeBox(Row& row) {
   RecordedBox box;
-  box.frame = static_cast<int>(reader.Integer(columns.fields[0], 0, kMaxFrame));
-  box.id = static_cast<ObjectId>(reader.Integer(columns.fields[1], 1, kMaxId));
-  box.type = reader.Text(columns.fields[2]);
-  for (int i = 0; i < 3; ++i) {
-    box.size_m[i] = reader.NumberWithin(columns.fields[3 + i], kLongest_m);
-  }
-  box.n_points = static_cast<int>(reader.Integer(columns.fields[6], 0, kMaxId));
-  if (!reader.status().ok()) return reader.status();
+  box.frame = static_cast<int>(row.Integer(0, 0, kMaxFrame));
+  box.id = static_cast<ObjectId>(row.Integer(1, 1, kMaxId));
+  box.type = row.PlainText(2);
+  for (int i = 0; i < 3; ++i) box.size_m[i] = row.NumberWithin(3 + i, kLongest_m);
+  box.n_points = static_cast<int>(row.Integer(6, 0, kMaxId));
+  if (!row.status().ok()) return row.status();
   if ((box.size_m.array() <= 0).any()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(table.Where(row), ", columns l, w, h: a box of ", box.size_m.x(), " x ",
-                     box.size_m.y(), " x ", box.size_m.z(), " m; each length must be above 0"));
+    return row.Error(absl::StrCat("columns l, w, h: a box of ", NumberText(box.size_m.x()), " x ",
+                                  NumberText(box.size_m.y()), " x ", NumberText(box.size_m.z()),
+                                  " m; each length must be above 0"));
   }
-  const absl::StatusOr<Pose> T_W_B = ReadPose(table, row, columns.pose);
+  const absl::StatusOr<Pose> T_W_B = TakePose(row, 7);
   if (!T_W_B.ok()) return T_W_B.status();
   box.T_W_B = *T_W_B;
   return box;
 }
 
-auto KeyOf(const RecordedBox& box) { return std::tie(box.frame, box.id); }
+// Which of the rows, by ascending frames, are a longest sequence of ascending stamps.
+std::vector<bool> Ascending(const std::vector<TablePose>& rows) {
+  std::vector<std::size_t> ends;  // by length less one: where the sequence with the lowest end ends
+  std::vector<std::size_t> before(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto place = std::ranges::lower_bound(
+        ends, rows[i].pose.stamp, {}, [&](std::size_t end) { return rows[end].pose.stamp; });
+    before[i] = place == ends.begin() ? i : *std::prev(place);
+    if (place == ends.end()) {
+      ends.push_back(i);
+    } else {
+      *place = i;
+    }
+  }
+  std::vector<bool> kept(rows.size(), false);
+  for (std::size_t i = ends.empty() ? 0 : ends.back(); !ends.empty(); i = before[i]) {
+    kept[i] = true;
+    if (before[i] == i) break;
+  }
+  return kept;
+}
 
 }  // namespace
 
-absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path) {
-  const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
-  if (!table.ok()) return table.status();
-  const auto frame_column = table->Column("frame");
-  if (!frame_column.ok()) return frame_column.status();
-  const auto pose_columns = FindPoseColumns(*table);
-  if (!pose_columns.ok()) return pose_columns.status();
-  const bool stamped = table->HasColumn("timestamp_ns");
-  const std::size_t stamp_column = stamped ? *table->Column("timestamp_ns") : 0;
-
-  std::vector<RecordedPose> poses;
-  for (std::size_t row = 0; row < table->rows(); ++row) {
-    CsvRow reader(*table, row);
-    RecordedPose pose;
-    pose.frame = static_cast<int>(reader.Integer(*frame_column, 0, kMaxFrame));
-    pose.stamp = TimeFromNanoseconds(
-        stamped ? reader.Integer(stamp_column, 0, std::numeric_limits<std::int64_t>::max())
-                : pose.frame * kNanosecondsPerFrame);
-    if (!reader.status().ok()) return reader.status();
-    const absl::StatusOr<Pose> T_W_S = ReadPose(*table, row, *pose_columns);
-    if (!T_W_S.ok()) return T_W_S.status();
-    pose.T_W_S = *T_W_S;
-    if (!poses.empty() && (pose.frame <= poses.back().frame || pose.stamp <= poses.back().stamp)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(table->Where(row), ": frame ", pose.frame, " at ", ToNanoseconds(pose.stamp),
-                       " ns does not come after frame ", poses.back().frame, " at ",
-                       ToNanoseconds(poses.back().stamp), " ns"));
+std::vector<RecordedPose> InOrder(const std::filesystem::path& path, std::vector<TablePose> rows,
+                                  LeftOut& left_out) {
+  std::ranges::stable_sort(rows, {}, [](const TablePose& row) { return row.pose.frame; });
+  const auto leave_out = [&](const TablePose& row, const std::string& why) {
+    left_out.AddRow(absl::StrCat(path.string(), ", line ", row.line, ": ", why));
+  };
+  std::vector<TablePose> single;
+  for (TablePose& row : rows) {
+    if (single.empty() || single.back().pose.frame != row.pose.frame) {
+      single.push_back(std::move(row));
+    } else {
+      leave_out(row, absl::StrCat("a second row of frame ", row.pose.frame, "; the first: line ",
+                                  single.back().line));
     }
-    poses.push_back(pose);
   }
-  if (poses.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no pose under the header"));
+  const std::vector<bool> kept = Ascending(single);
+  std::vector<RecordedPose> poses;
+  for (std::size_t i = 0; i < single.size(); ++i) {
+    if (kept[i]) {
+      poses.push_back(single[i].pose);
+    } else {
+      leave_out(single[i], absl::StrCat("frame ", single[i].pose.frame, " at ",
+                                        ToNanoseconds(single[i].pose.stamp),
+                                        " ns: stamps must ascend with the frames"));
+    }
   }
   return poses;
 }
 
-absl::Status SortBoxes(const std::filesystem::path& path, std::vector<RecordedBox>& boxes) {
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const auto& a, const auto& b) { return KeyOf(a) < KeyOf(b); });
-  const auto twice =
-      std::adjacent_find(boxes.begin(), boxes.end(),
-                         [](const auto& a, const auto& b) { return KeyOf(a) == KeyOf(b); });
-  if (twice != boxes.end()) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": frame ", twice->frame,
-                                                   " has two boxes of track ", twice->id));
+absl::Status BoxRows::Add(const Row& row, RecordedBox box) {
+  const auto [first, is_new] = boxes_.try_emplace({box.frame, box.id}, row.line(), std::move(box));
+  if (is_new) return absl::OkStatus();
+  const auto [frame, id] = first->first;
+  return row.Error(absl::StrCat("a second box of track ", id, " in frame ", frame,
+                                "; the first: line ", first->second.first));
+}
+
+std::vector<RecordedBox> BoxRows::Take() {
+  std::vector<RecordedBox> boxes;
+  boxes.reserve(boxes_.size());
+  for (auto& [key, box] : boxes_) boxes.push_back(std::move(box.second));
+  return boxes;
+}
+
+absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path,
+                                                         LeftOut& left_out) {
+  constexpr std::int64_t kMaxStamp = std::numeric_limits<std::int64_t>::max();
+  const auto columns = WithMatrix({{"frame"}, {"timestamp_ns", /*optional=*/true}});
+  std::vector<TablePose> rows;
+  const auto visit = [&](Row& row) {
+    const auto frame = static_cast<int>(row.Integer(0, 0, kMaxFrame));
+    const std::int64_t stamp_ns =
+        row.Has(1) ? row.Integer(1, 0, kMaxStamp) : frame * kNanosecondsPerFrame;
+    const absl::StatusOr<Pose> T_W_S = TakePose(row, 2);
+    if (!T_W_S.ok()) return T_W_S.status();
+    rows.push_back({{frame, TimeFromNanoseconds(stamp_ns), *T_W_S}, row.line()});
+    return absl::OkStatus();
+  };
+  if (auto status = VisitTable(path, {}, columns, left_out, visit); !status.ok()) return status;
+  if (rows.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no pose under the header"));
   }
-  return absl::OkStatus();
+  return InOrder(path, std::move(rows), left_out);
 }
 
 absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::path& path,
-                                                        const std::vector<RecordedPose>& poses) {
-  const absl::StatusOr<CsvTable> table = CsvTable::Read(path);
-  if (!table.ok()) return table.status();
-  const absl::StatusOr<BoxColumns> columns = FindBoxColumns(*table);
-  if (!columns.ok()) return columns.status();
-  std::vector<RecordedBox> boxes;
-  for (std::size_t row = 0; row < table->rows(); ++row) {
-    absl::StatusOr<RecordedBox> box = ReadBox(*table, row, *columns);
+                                                        const std::vector<RecordedPose>& poses,
+                                                        LeftOut& left_out) {
+  const auto columns =
+      WithMatrix({{"frame"}, {"track"}, {"type"}, {"l"}, {"w"}, {"h"}, {"n_points"}});
+  BoxRows boxes;
+  const auto visit = [&](Row& row) {
+    absl::StatusOr<RecordedBox> box = TakeBox(row);
     if (!box.ok()) return box.status();
     if (PoseOf(poses, box->frame) == nullptr) {
-      return absl::InvalidArgumentError(absl::StrCat(table->Where(row, columns->fields[0]),
-                                                     ": frame ", box->frame,
-                                                     " has no pose of the sensor"));
+      return row.Error(absl::StrCat("frame ", box->frame, " has no pose of the sensor"));
     }
-    boxes.push_back(*std::move(box));
-  }
-  if (auto status = SortBoxes(path, boxes); !status.ok()) return status;
-  return boxes;
+    return boxes.Add(row, *std::move(box));
+  };
+  if (auto status = VisitTable(path, {}, columns, left_out, visit); !status.ok()) return status;
+  return boxes.Take();
 }
 
 }  // namespace clearway

@@ -2,22 +2,49 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/io/lidar_folder.h"
+#include "io/row.h"
 
 namespace clearway {
 
-// Rows by ascending frame; stamps ascend too.
-absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path);
+// Rows by ascending frame; stamps ascend too. Rows may come in any order; those that are bad, of a
+// frame that has one already, or whose stamps do not ascend with the frames, are left out.
+absl::StatusOr<std::vector<RecordedPose>> ReadLidarPoses(const std::filesystem::path& path,
+                                                         LeftOut& left_out);
 
-// Rows sorted by (frame, id). Each row's frame must be one of `poses`.
+// Rows sorted by (frame, id). Rows that are bad, or of a frame without a pose, and second ones of a
+// frame and track are left out.
 absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::path& path,
-                                                        const std::vector<RecordedPose>& poses);
+                                                        const std::vector<RecordedPose>& poses,
+                                                        LeftOut& left_out);
 
-// By (frame, id). INVALID_ARGUMENT, naming the file, if a frame has two boxes of one track.
-absl::Status SortBoxes(const std::filesystem::path& path, std::vector<RecordedBox>& boxes);
+// What readers of such tables share.
+
+// A pose with the line that it stands in.
+struct TablePose {
+  RecordedPose pose;
+  int line = 0;
+};
+// Sorts by frames and leaves out second rows of a frame and the fewest others without which stamps
+// ascend. `path` names the table.
+std::vector<RecordedPose> InOrder(const std::filesystem::path& path, std::vector<TablePose> rows,
+                                  LeftOut& left_out);
+
+// Boxes of a table, by frame and id.
+class BoxRows {
+ public:
+  // INVALID_ARGUMENT, naming both rows, if that frame has a box of that track.
+  absl::Status Add(const Row& row, RecordedBox box);
+  // By ascending (frame, id).
+  std::vector<RecordedBox> Take();
+
+ private:
+  std::map<std::pair<int, ObjectId>, std::pair<int, RecordedBox>> boxes_;  // with their lines
+};
 
 }  // namespace clearway

@@ -12,11 +12,13 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <system_error>
 #include <tuple>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
+#include "clearway/base/number_text.h"
+#include "io/mesh_io_system.h"
 
 namespace clearway {
 namespace {
@@ -28,24 +30,15 @@ constexpr std::array<const char*, 7> kExtensions = {".stl", ".obj",  ".ply", ".o
                                                     ".dae", ".gltf", ".glb"};
 constexpr int kMaxNodeDepth = 1000;
 
-absl::Status CheckFile(const Path& path, const MeshFileOptions& options) {
+absl::Status CheckOptions(const Path& path, const MeshFileOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("scale is ", options.scale, "; it must be above 0"));
+        absl::StrCat("scale is ", NumberText(options.scale), "; it must be above 0"));
   }
   const std::string extension = absl::AsciiStrToLower(path.extension().string());
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
     return absl::InvalidArgumentError(absl::StrCat(
         path.string(), ": the extension must be .stl, .obj, .ply, .off, .dae, .gltf or .glb"));
-  }
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
-  }
-  const std::uint64_t bytes = std::filesystem::file_size(path, error);
-  if (error || bytes > options.max_bytes) {
-    return absl::ResourceExhaustedError(absl::StrCat(
-        path.string(), ": ", bytes, " bytes; the limit is ", options.max_bytes, " bytes"));
   }
   return absl::OkStatus();
 }
@@ -145,12 +138,16 @@ void KeepImportersFor(const std::string& extension, Assimp::Importer& importer) 
   }
 }
 
-absl::StatusOr<Mesh> Import(const Path& path, const MeshFileOptions& options) {
+absl::StatusOr<Mesh> Import(const Path& path, const std::string& bytes,
+                            const MeshFileOptions& options) {
   Assimp::Importer importer;
   KeepImportersFor(absl::AsciiStrToLower(path.extension().string().substr(1)), importer);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, !options.collada_y_up);
+  const auto files = new MeshIoSystem(path, bytes, options.max_bytes);
+  importer.SetIOHandler(files);  // which it owns from now on
   const aiScene* const scene =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+  if (!files->status().ok()) return files->status();
   if (scene == nullptr || scene->mRootNode == nullptr) {
     return absl::InvalidArgumentError(absl::StrCat("not readable: ", importer.GetErrorString()));
   }
@@ -160,11 +157,13 @@ absl::StatusOr<Mesh> Import(const Path& path, const MeshFileOptions& options) {
 }  // namespace
 
 absl::StatusOr<Mesh> ReadMesh(const Path& path, const MeshFileOptions& options) {
-  const absl::Status status = CheckFile(path, options);
+  const absl::Status status = CheckOptions(path, options);
   if (!status.ok()) return status;
+  const absl::StatusOr<std::string> bytes = ReadWholeFile(path, options.max_bytes);
+  if (!bytes.ok()) return bytes.status();
   absl::StatusOr<Mesh> mesh = absl::InternalError("");
   try {
-    mesh = Import(path, options);
+    mesh = Import(path, *bytes, options);
   } catch (const std::exception& error) {  // memory, and what assimp does not catch itself
     mesh = absl::InvalidArgumentError(absl::StrCat("not readable: ", error.what()));
   }

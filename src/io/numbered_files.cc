@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/io/file_type.h"
 
 namespace clearway {
 namespace {
@@ -31,7 +32,7 @@ absl::StatusOr<std::map<int, Path>> NumberedFiles(const Path& folder,
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     const Path path = entry->path();
     const std::optional<int> number = NumberOf(path.stem().string());
-    if (path.extension() != extension || !number) continue;
+    if (LowerExtension(path) != extension || !number) continue;
     const auto [file, is_new] = files.try_emplace(*number, path);
     if (is_new) continue;
     // Named in the order of their names: that of a folder's entries is the file system's.

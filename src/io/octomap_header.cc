@@ -1,90 +1,85 @@
 #include "io/octomap_header.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "io/parse_number.h"
+#include "io/utf8.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::string_view kBinaryMagic = "# Octomap OcTree binary file";
 constexpr std::string_view kFullMagic = "# Octomap OcTree file";
-constexpr std::size_t kMaxLine = 4096;
+constexpr std::size_t kMaxHeader = 65'536;
 
-bool StartsWith(std::string_view text, std::string_view prefix) {
-  return text.substr(0, prefix.size()) == prefix;
-}
-
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-template <class T>
-bool ParseWhole(std::string_view text, T& value) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
-}
-
-// Reads the lines up to "data".
+// Reads words up to "data", as AbstractOcTree::readHeader of OctoMap does: lines do not matter, but
+// what follows # or an unknown word up to the end of its line is skipped.
 class HeaderParser {
  public:
-  HeaderParser(const std::string& name, std::string_view bytes) : name_(name), bytes_(bytes) {}
+  HeaderParser(const std::string& name, std::string_view bytes)
+      : name_(name), bytes_(bytes), rest_(bytes.substr(0, kMaxHeader)) {}
 
   absl::StatusOr<OctomapHeader> Parse() {
-    absl::StatusOr<std::string_view> line = NextLine();
-    if (!line.ok()) return line.status();
     // The binary magic is not a prefix of the other, nor the other way round.
-    if (StartsWith(*line, kBinaryMagic)) {
+    if (rest_.starts_with(kBinaryMagic)) {
       header_.format = OctomapFormat::kBinary;
-    } else if (StartsWith(*line, kFullMagic)) {
+    } else if (rest_.starts_with(kFullMagic)) {
       header_.format = OctomapFormat::kFull;
     } else {
       return Fail("does not start with \"# Octomap OcTree\": no OctoMap file");
     }
-    while (true) {
-      line = NextLine();
-      if (!line.ok()) return line.status();
-      if (line->empty() || line->front() == '#') continue;
-      if (Trimmed(*line) == "data") break;
-      const absl::Status status = Entry(*line);
-      if (!status.ok()) return status;
+    SkipLine();
+    for (std::string_view word = TakeWord(); !word.empty(); word = TakeWord()) {
+      if (word == "data") {
+        if (!SkipLine()) break;
+        header_.data_begin = static_cast<std::size_t>(rest_.data() - bytes_.data()) + 1;
+        return Checked();
+      }
+      if (const absl::Status status = Entry(word); !status.ok()) return status;
     }
-    return Checked();
+    return Fail("the header ends before its word \"data\": cut off, or no OctoMap file");
   }
 
  private:
-  absl::StatusOr<std::string_view> NextLine() {
-    ++line_;
-    const std::string_view rest = bytes_.substr(header_.data_begin);
-    const std::size_t end = rest.substr(0, kMaxLine).find('\n');
-    if (end == std::string_view::npos) {
-      return Fail("the header ends before its line \"data\": cut off, or no OctoMap file");
-    }
-    header_.data_begin += end + 1;
-    return rest.substr(0, end);
+  // Empty at the end of the header's bytes.
+  std::string_view TakeWord() {
+    constexpr std::string_view kBlank = " \t\r\n\v\f";
+    const std::size_t first = std::min(rest_.find_first_not_of(kBlank), rest_.size());
+    line_ += static_cast<int>(std::count(rest_.begin(), rest_.begin() + first, '\n'));
+    rest_.remove_prefix(first);
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlank));
+    rest_.remove_prefix(word.size());
+    return word;
   }
 
-  absl::Status Entry(std::string_view line) {
-    const std::size_t blank = line.find(' ');
-    const std::string_view key = line.substr(0, blank);
-    const std::string_view value =
-        blank == std::string_view::npos ? std::string_view() : Trimmed(line.substr(blank));
+  // Up to the line's end; false if there is none.
+  bool SkipLine() {
+    const std::size_t end = rest_.find('\n');
+    rest_.remove_prefix(std::min(end, rest_.size()));
+    return end != std::string_view::npos;
+  }
+
+  absl::Status Entry(std::string_view key) {
     if (key == "id") {
-      header_.tree_type = std::string(value);
+      header_.tree_type = std::string(TakeWord());
     } else if (key == "size") {
-      has_size_ = ParseWhole(value, header_.nodes);
+      has_size_ = ParseWhole(TakeWord(), header_.nodes);
       if (!has_size_) return Fail("size is not a number of nodes");
     } else if (key == "res") {
-      if (!ParseWhole(value, header_.resolution_m)) return Fail("res is not a number");
+      if (!ParseWhole(TakeWord(), header_.resolution_m)) return Fail("res is not a number");
     } else {
-      return Fail("none of id, size, res, data");
+      if (key.front() != '#') header_.unknown_keys.push_back(Shown(key));
+      SkipLine();
     }
     return absl::OkStatus();
+  }
+
+  static std::string Shown(std::string_view key) {
+    constexpr std::size_t kMaxShown = 40;
+    return IsPlainText(key.substr(0, kMaxShown)) ? std::string(key.substr(0, kMaxShown))
+                                                 : "(not text)";
   }
 
   absl::StatusOr<OctomapHeader> Checked() {
@@ -105,10 +100,10 @@ class HeaderParser {
   }
 
   const std::string& name_;
-  std::string_view bytes_;
+  std::string_view bytes_, rest_;
   OctomapHeader header_;
   bool has_size_ = false;
-  int line_ = 0;
+  int line_ = 1;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "clearway/io/octomap_file.h"
@@ -15,7 +16,8 @@ struct OctomapHeader {
   std::string tree_type;
   std::uint64_t nodes = 0;
   double resolution_m = 0;
-  std::size_t data_begin = 0;  // the first byte of data
+  std::vector<std::string> unknown_keys;  // OctoMap skips them, too
+  std::size_t data_begin = 0;             // the first byte of data
 };
 
 // INVALID_ARGUMENT naming the line and the field.

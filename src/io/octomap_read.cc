@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "clearway/io/octomap_file.h"
-#include "io/file.h"
 #include "io/octomap_header.h"
 
 namespace clearway {
@@ -199,7 +199,8 @@ absl::StatusOr<OctomapFile> ParseOctomap(const std::string& name, std::string_vi
                                          const OccupancyModel& model, const OctomapLimits& limits) {
   const absl::StatusOr<OctomapHeader> header = ParseOctomapHeader(name, bytes);
   if (!header.ok()) return header.status();
-  OctomapFile file{header->format, header->tree_type, VoxelMap(header->resolution_m, model)};
+  OctomapFile file{header->format, header->tree_type, VoxelMap(header->resolution_m, model), 0,
+                   header->unknown_keys};
   const absl::Status status = TreeReader(name, bytes, *header, limits, file).Read();
   if (!status.ok()) return status;
   return file;

@@ -5,9 +5,10 @@
 #include <sstream>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/flatten_scene.h"
 #include "clearway/io/octomap_file.h"
-#include "io/file.h"
 
 namespace clearway {
 namespace {
@@ -102,7 +103,7 @@ absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat 
 }
 
 absl::Status WriteOctomap(const std::filesystem::path& path, const VoxelMap& map) {
-  const std::string extension = path.extension().string();
+  const std::string extension = LowerExtension(path);
   if (extension != ".bt" && extension != ".ot") {
     return absl::InvalidArgumentError(
         absl::StrCat(path.string(), ": the extension must be .bt or .ot"));

@@ -1,6 +1,5 @@
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,11 +8,13 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "clearway/base/file.h"
+#include "clearway/base/number_text.h"
 #include "io/cloud_points.h"
-#include "io/file.h"
 #include "io/lzf.h"
+#include "io/parse_number.h"
 #include "io/pcd_header.h"
-#include "io/word_lines.h"
+#include "io/text_lines.h"
 
 namespace clearway {
 namespace {
@@ -183,9 +184,7 @@ absl::StatusOr<CloudPoints> ReadAscii(const std::string& name, std::string_view 
     for (std::string_view word = TakeWord(line); !word.empty(); word = TakeWord(line), ++words) {
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         if (wanted[i]->first_word != words) continue;
-        const auto [rest, error] =
-            std::from_chars(word.data(), word.data() + word.size(), values[i]);
-        if (error == std::errc() && rest == word.data() + word.size()) continue;
+        if (ParseNumber(word, values[i])) continue;
         return fail(absl::StrCat("field ", wanted[i]->name, ": '", std::string(word.substr(0, 40)),
                                  "' is not a number"));
       }
@@ -214,9 +213,9 @@ ObjectId LabelReader::LabelOf(double value, const std::string& where, std::size_
   if (std::isnan(value) || value < 0 || value == kUnsignedMinusOne) return kIgnoreLabel;
   if (value <= kMost && value == std::floor(value)) return static_cast<ObjectId>(value);
   if (status_.ok()) {
-    status_ = absl::InvalidArgumentError(absl::StrCat(where, ", point ", i, ": label ", value,
-                                                      " is not a whole number of at most ",
-                                                      std::numeric_limits<ObjectId>::max()));
+    status_ = absl::InvalidArgumentError(
+        absl::StrCat(where, ", point ", i, ": label ", NumberText(value),
+                     " is not a whole number of at most ", std::numeric_limits<ObjectId>::max()));
   }
   return kIgnoreLabel;
 }

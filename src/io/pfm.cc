@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <string>
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
+#include "clearway/base/number_text.h"
+#include "io/parse_number.h"
 
 namespace clearway {
 namespace {
@@ -25,13 +26,6 @@ std::string_view TakeHeaderWord(std::string_view& rest) {
       rest.substr(0, std::min<std::size_t>(rest.find_first_of(kBlank), 20));
   rest.remove_prefix(std::min(word.size() + 1, rest.size()));
   return word;
-}
-
-template <class T>
-bool ParseWhole(std::string_view text, T& value) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
 }
 
 }  // namespace
@@ -53,7 +47,7 @@ absl::StatusOr<FloatImage> ReadPfm(const std::filesystem::path& path) {
     return fail("no width, height and scale behind Pf");
   }
   if (scale != 1 && scale != -1) {
-    return fail(absl::StrCat("a scale of ", scale, "; expected 1 or -1 (metres)"));
+    return fail(absl::StrCat("a scale of ", NumberText(scale), "; expected 1 or -1 (metres)"));
   }
   const std::uint64_t row_bytes = sizeof(float) * std::uint64_t{image.width};
   const std::uint64_t expected = row_bytes * image.height;

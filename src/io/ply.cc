@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "clearway/io/world_origin.h"
-#include "io/file.h"
 
 namespace clearway {
 namespace {

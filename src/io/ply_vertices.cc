@@ -1,7 +1,6 @@
 #include "io/ply_vertices.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,21 +10,17 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
+#include "clearway/base/number_text.h"
+#include "io/parse_number.h"
 #include "io/ply_scalar.h"
-#include "io/word_lines.h"
+#include "io/text_lines.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxVertices = 20'000'000;
-template <class T>
-bool ParseWhole(std::string_view text, T& value) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
-}
 
 // What of a bad line is worth showing.
 std::string Excerpt(std::string_view text) {
@@ -173,7 +168,7 @@ bool Fits(const PlyProperty& property, double value) {
 
 double TakeNumber(const PlyProperty& property, std::string_view word, Reader& reader) {
   double value = 0;
-  if (!ParseWhole(word, value) || !Fits(property, value)) {
+  if (!ParseNumber(word, value) || !Fits(property, value)) {
     reader.Fail(
         absl::StrCat("property ", property.name, ": '", Excerpt(word), "' is not ",
                      property.is_index ? "an integer from 0 to 4294967295" : "a finite number"));
@@ -198,12 +193,16 @@ Places PlacesOf(std::span<const PlyProperty> wanted, const Header& header, Reade
   return places;
 }
 
-void TakeVertex(std::span<const PlyProperty> wanted, const Places& places, Reader& reader,
-                double* row) {
+void TakeVertex(std::span<const PlyProperty> wanted, const Header& header, const Places& places,
+                Reader& reader, double* row) {
   std::size_t count = 0;
   for (std::string_view word = reader.NextWord(); !word.empty(); word = reader.NextWord()) {
     const auto place = count < places.size() ? places[count] : std::nullopt;
-    if (place) row[*place] = TakeNumber(wanted[*place], word, reader);
+    if (place) {
+      row[*place] = TakeNumber(wanted[*place], word, reader);
+    } else if (count < places.size()) {
+      TakeNumber({header.properties[count].c_str()}, word, reader);
+    }
     ++count;
   }
   if (count != places.size()) {
@@ -235,7 +234,8 @@ void TakeBinary(std::span<const PlyProperty> wanted, const Places& places, const
       values[row * wanted.size() + *places[p]] = value;
       if (Fits(wanted[*places[p]], value)) continue;
       return reader.Fail(absl::StrCat("vertex ", row, ", property ", wanted[*places[p]].name, ": ",
-                                      value, " is not a finite number, or not an index"));
+                                      NumberText(value),
+                                      " is not a finite number, or not an index"));
     }
   }
 }
@@ -251,7 +251,7 @@ void TakeAscii(std::span<const PlyProperty> wanted, const Places& places, const 
   values.resize(count * wanted.size());
   std::uint64_t row = 0;
   for (; row < count && reader.NextLine(); ++row) {
-    TakeVertex(wanted, places, reader, values.data() + row * wanted.size());
+    TakeVertex(wanted, header, places, reader, values.data() + row * wanted.size());
   }
   if (row < count) {
     reader.FailCutOff(absl::StrCat("it has ", row, " of ", count, " vertices"));

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
 
 namespace clearway {
 namespace {

@@ -6,8 +6,10 @@
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
-#include "io/word_lines.h"
+#include "clearway/base/file.h"
+#include "clearway/geometry/unit_quaternion.h"
+#include "clearway/io/file_type.h"
+#include "io/text_lines.h"
 
 namespace clearway {
 namespace {
@@ -15,7 +17,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "scan graphs are little endian");
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
-constexpr double kUnitTolerance = 1e-3;
 constexpr std::size_t kPointBytes = 28;  // the number of coordinates, and as many doubles
 
 bool ParsePoint(std::string_view line, Eigen::Vector3f& point) {
@@ -75,9 +76,10 @@ class GraphReader {
   Pose TakePose() {
     const Eigen::Vector3d translation = TakeVector<3>();
     const Eigen::Vector4d wxyz = TakeVector<4>();
-    if (std::abs(wxyz.norm() - 1) > kUnitTolerance) Fail("a quaternion that is not of unit length");
+    const Eigen::Quaterniond rotation(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+    if (!IsNearlyUnit(rotation)) Fail(absl::StrCat("a quaternion ", NotUnitText(rotation)));
     if (!status_.ok()) return Pose();
-    return {Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized(), translation};
+    return {rotation.normalized(), translation};
   }
 
  private:
@@ -147,7 +149,7 @@ absl::StatusOr<std::vector<PosedCloud>> ParseScanGraph(const std::string& name,
 absl::StatusOr<std::vector<PosedCloud>> ReadPointClouds(const std::filesystem::path& path) {
   const absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxBytes);
   if (!bytes.ok()) return bytes.status();
-  if (path.extension() == ".graph") return ParseScanGraph(path.string(), *bytes);
+  if (LowerExtension(path) == ".graph") return ParseScanGraph(path.string(), *bytes);
   absl::StatusOr<PosedCloud> cloud = ParseTextCloud(path.string(), *bytes);
   if (!cloud.ok()) return cloud.status();
   return std::vector<PosedCloud>{*std::move(cloud)};

@@ -1,11 +1,12 @@
 #include "io/pose_table.h"
 
+#include <functional>
+#include <optional>
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
 #include "io/rigid_matrix.h"
-#include "io/tum_tables.h"
-#include "io/word_lines.h"
+#include "io/word_table.h"
 
 namespace clearway {
 namespace {
@@ -13,89 +14,119 @@ namespace {
 using Path = std::filesystem::path;
 
 constexpr std::size_t kTumWords = 8, kKittiWords = 12;
+constexpr WordFormat kTum{LastLine::kEnds, Comments::kHash, Separators::kCommasToo};
+constexpr WordFormat kKitti{LastLine::kEnds, Comments::kHash};
 
-absl::StatusOr<PoseTable> StampedTable(const Path& path) {
-  const auto track = ReadTumTrack(path);
-  if (!track.ok()) return track.status();
-  PoseTable table{{}, true};
-  for (const TumPose& pose : *track) table.rows.push_back({pose.stamp, pose.T_W_X});
+// Visits every row with its number, from 0.
+absl::StatusOr<std::size_t> VisitNumbered(
+    const Path& path, const WordFormat& format, LeftOut& left_out,
+    const std::function<absl::Status(Row&, int number)>& visit) {
+  auto words = ReadWordRows(path, format);
+  if (!words.ok()) return words.status();
+  RowPolicy policy(left_out);
+  int number = 0;
+  for (Row& row : words->rows) {
+    const auto numbered = [&](Row& visited) { return visit(visited, number); };
+    if (auto status = policy.Visit(row, numbered); !status.ok()) return status;
+    ++number;
+  }
+  if (auto status = policy.Finish(); !status.ok()) return status;
+  return words->rows.size();
+}
+
+absl::StatusOr<PoseTable> ReadTumPoses(const Path& path, LeftOut& left_out) {
+  PoseTable table{{}, 0, true};
+  const auto visit = [&](Row& row, int number) {
+    if (row.size() != kTumWords) return row.WrongCount("timestamp tx ty tz qx qy qz qw");
+    const RecordedPose pose{number, row.Stamp(0), row.PoseFrom(1)};
+    if (row.status().ok()) table.rows.push_back({pose, row.line()});
+    return row.status();
+  };
+  const auto count = VisitNumbered(path, kTum, left_out, visit);
+  if (!count.ok()) return count.status();
+  table.row_count = *count;
   return table;
 }
 
-absl::StatusOr<std::vector<Pose>> ReadMatrices(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kEnds, Comments::kHash);
-  if (!lines.ok()) return lines.status();
-  std::vector<Pose> poses;
-  for (Words& line : *lines) {
-    if (line.size() != kKittiWords) return WrongCount(line, "12 (a matrix 3x4, row by row)");
+absl::StatusOr<PoseTable> ReadMatrices(const Path& path, LeftOut& left_out) {
+  PoseTable table;
+  const auto visit = [&](Row& row, int number) {
+    if (row.size() != kKittiWords) return row.WrongCount("12 (a matrix 3x4, row by row)");
     Eigen::Matrix<double, 3, 4> matrix;
     for (int i = 0; i < 12; ++i) {
-      matrix(i / 4, i % 4) = line.Number(static_cast<std::size_t>(i));
+      matrix(i / 4, i % 4) = row.Coordinate(static_cast<std::size_t>(i));
     }
-    if (!line.status().ok()) return line.status();
-    const auto pose = PoseOfMatrix(matrix, line.where());
+    if (!row.status().ok()) return row.status();
+    const auto pose = PoseOfMatrix(matrix, row.where());
     if (!pose.ok()) return pose.status();
-    poses.push_back(*pose);
-  }
-  if (poses.empty()) {
+    table.rows.push_back({{number, Time(), *pose}, row.line()});
+    return absl::OkStatus();
+  };
+  const auto count = VisitNumbered(path, kKitti, left_out, visit);
+  if (!count.ok()) return count.status();
+  if (*count == 0) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": holds no pose"));
   }
-  return poses;
+  table.row_count = *count;
+  return table;
 }
 
-absl::StatusOr<std::vector<Time>> ReadTimes(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen);
-  if (!lines.ok()) return lines.status();
-  std::vector<Time> times;
-  for (Words& line : *lines) {
-    if (line.size() != 1) return WrongCount(line, "one, seconds");
-    const Time stamp = line.Stamp(0);
-    if (!line.status().ok()) return line.status();
-    if (!times.empty() && stamp <= times.back()) {
-      return absl::InvalidArgumentError(
-          absl::StrCat(line.where(), ": the stamp ", ToNanoseconds(stamp),
-                       " ns does not come after ", ToNanoseconds(times.back()), " ns"));
-    }
-    times.push_back(stamp);
-  }
+// None for bad rows.
+absl::StatusOr<std::vector<std::optional<Time>>> ReadTimes(const Path& path, LeftOut& left_out) {
+  std::vector<std::optional<Time>> times;
+  const auto visit = [&](Row& row, int number) {
+    times.resize(static_cast<std::size_t>(number) + 1);
+    if (row.size() != 1) return row.WrongCount("one, seconds");
+    const Time stamp = row.Stamp(0);
+    if (row.status().ok()) times.back() = stamp;
+    return row.status();
+  };
+  const auto count = VisitNumbered(path, {.last = LastLine::kMayBeOpen}, left_out, visit);
+  if (!count.ok()) return count.status();
+  times.resize(*count);
   return times;
 }
 
 }  // namespace
 
-absl::StatusOr<PoseTable> ReadPoseTable(const Path& path, Duration period) {
-  const auto lines = ReadWordLines(path, LastLine::kMayBeOpen, Comments::kHash);
-  if (!lines.ok()) return lines.status();
-  if (lines->empty()) {
+absl::StatusOr<PoseTable> ReadPoseTable(const Path& path, Duration period, LeftOut& left_out) {
+  WordFormat format = kTum;
+  format.last = LastLine::kMayBeOpen;
+  auto words = ReadWordRows(path, format);
+  if (!words.ok()) return words.status();
+  if (words->rows.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": holds no pose"));
   }
-  const std::size_t words = lines->front().size();
-  if (words == kKittiWords) return ReadKittiPoses(path, path.parent_path() / "times.txt", period);
-  if (words == kTumWords || lines->front().Text(0).find(',') != std::string::npos) {
-    return StampedTable(path);
+  Row& first = words->rows.front();
+  if (first.size() == kKittiWords) {
+    return ReadKittiPoses(path, path.parent_path() / "times.txt", period, left_out);
   }
-  return WrongCount(lines->front(),
-                    "8 (timestamp tx ty tz qx qy qz qw) or 12 (a matrix 3x4, row by row)");
+  if (first.size() == kTumWords) return ReadTumPoses(path, left_out);
+  return first.WrongCount("8 (timestamp tx ty tz qx qy qz qw) or 12 (a matrix 3x4, row by row)");
 }
 
-absl::StatusOr<PoseTable> ReadKittiPoses(const Path& path, const Path& times_path,
-                                         Duration period) {
-  const auto poses = ReadMatrices(path);
-  if (!poses.ok()) return poses.status();
-  PoseTable table;
+absl::StatusOr<PoseTable> ReadKittiPoses(const Path& path, const Path& times_path, Duration period,
+                                         LeftOut& left_out) {
+  auto table = ReadMatrices(path, left_out);
+  if (!table.ok()) return table.status();
   std::error_code error;
-  table.stamped = std::filesystem::exists(times_path, error);
-  const auto times = table.stamped ? ReadTimes(times_path) : std::vector<Time>();
+  table->stamped = std::filesystem::exists(times_path, error);
+  if (!table->stamped) {
+    for (TablePose& row : table->rows) row.pose.stamp = Time() + row.pose.frame * period;
+    return table;
+  }
+  const auto times = ReadTimes(times_path, left_out);
   if (!times.ok()) return times.status();
-  if (table.stamped && times->size() < poses->size()) {
+  if (times->size() < table->row_count) {
     return absl::InvalidArgumentError(absl::StrCat(times_path.string(), ": ", times->size(),
-                                                   " times for the ", poses->size(), " poses of ",
-                                                   path.string()));
+                                                   " times for the ", table->row_count,
+                                                   " poses of ", path.string()));
   }
-  for (std::size_t k = 0; k < poses->size(); ++k) {
-    const Time stamp = table.stamped ? (*times)[k] : Time() + static_cast<int>(k) * period;
-    table.rows.push_back({stamp, (*poses)[k]});
-  }
+  std::erase_if(table->rows, [&](TablePose& row) {
+    const std::optional<Time> stamp = (*times)[static_cast<std::size_t>(row.pose.frame)];
+    row.pose.stamp = stamp.value_or(Time());
+    return !stamp.has_value();
+  });
   return table;
 }
 

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
+#include "clearway/base/number_text.h"
+#include "clearway/io/file_type.h"
 #include "clearway/io/recording.h"
 #include "io/recording_codec.h"
 #include "io/recording_origin.h"
@@ -32,26 +34,26 @@ std::uint32_t BigEndian(const unsigned char* bytes, int count) {
 // SQLite reads what is left of a file that was cut off for as long as it can. The header says how
 // many pages there should be (https://www.sqlite.org/fileformat2.html, section 1.3).
 absl::Status CheckWhole(const Path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return absl::NotFoundError(absl::StrCat(path.string(), ": no such file"));
+  constexpr std::size_t kHeaderBytes = 100, kEnough = 512;
+  const auto start = ReadFileStart(path, kEnough);
+  if (!start.ok()) return start.status();
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  const std::string_view magic = std::string_view(*start).substr(0, kMagic.size());
+  if (start->empty() || !kMagic.starts_with(magic)) {
+    const std::string kind = KindOfFile(path).name;
+    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": not a recording",
+                                                   kind.empty() ? "" : "; the file is ", kind));
   }
-  unsigned char header[100] = {};
-  std::ifstream in(path, std::ios::binary);
-  in.read(reinterpret_cast<char*>(header), sizeof header);
-  const std::streamsize got = in.gcount();
-  constexpr char kMagic[16] = "SQLite format 3";
-  if (std::memcmp(header, kMagic, std::min<std::size_t>(got, sizeof kMagic)) != 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(path.string(), ": not a recording (no SQLite file)"));
+  if (start->size() < kHeaderBytes) {
+    return absl::DataLossError(absl::StrCat(path.string(), ": cut off: only ", start->size(),
+                                            " bytes of the header are there"));
   }
-  if (got < std::streamsize{sizeof header}) {
-    return absl::DataLossError(
-        absl::StrCat(path.string(), ": cut off: only ", got, " bytes of the header are there"));
-  }
+  unsigned char header[kHeaderBytes];
+  std::memcpy(header, start->data(), kHeaderBytes);
   const std::uint32_t stored = BigEndian(header + 16, 2);
   const std::uint64_t page_bytes = stored == 1 ? 65536 : stored;
   const std::uint64_t expected = page_bytes * BigEndian(header + 28, 4);
+  std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
   if (error || size != expected) {
     return absl::DataLossError(absl::StrCat(path.string(), ": cut off or damaged: ", size,
@@ -64,8 +66,13 @@ absl::Status CheckKind(SqliteDatabase& database) {
   const auto application = database.QueryInteger("PRAGMA application_id");
   if (!application.ok()) return application.status();
   if (*application != kRecordingApplicationId) {
-    return absl::InvalidArgumentError(absl::StrCat("not a recording (application_id ", *application,
-                                                   " instead of ", kRecordingApplicationId, ")"));
+    const auto bag = database.QueryInteger(
+        "SELECT count(*) FROM sqlite_master WHERE name IN ('topics', 'messages')");
+    const bool is_bag = bag.ok() && *bag == 2;
+    return absl::InvalidArgumentError(absl::StrCat(
+        "not a recording; the file is ",
+        is_bag ? "a ROS 2 bag" : "an SQLite database of another program", " (application_id ",
+        *application, " instead of ", kRecordingApplicationId, ")"));
   }
   const auto version = database.QueryInteger("PRAGMA user_version");
   if (!version.ok()) return version.status();
@@ -89,8 +96,8 @@ absl::StatusOr<RecordedMeta> ReadMeta(SqliteDatabase& database) {
     return absl::DataLossError("meta: damaged (its checksum does not fit)");
   }
   if (!(meta.resolution_m > 0) || !std::isfinite(meta.resolution_m)) {
-    return absl::DataLossError(
-        absl::StrCat("meta: resolution_m is ", meta.resolution_m, "; it must be above 0"));
+    return absl::DataLossError(absl::StrCat("meta: resolution_m is ", NumberText(meta.resolution_m),
+                                            "; it must be above 0"));
   }
   const auto count = database.QueryInteger("SELECT COUNT(*) FROM frame");
   if (!count.ok()) return count.status();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/io/recording.h"
 #include "io/recording_codec.h"
 #include "io/recording_origin.h"
@@ -28,7 +29,7 @@ absl::Status WithName(const Path& path, const absl::Status& status) {
 absl::Status CheckOptions(const RecordingOptions& options) {
   if (!(options.resolution_m > 0) || !std::isfinite(options.resolution_m)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("resolution_m is ", options.resolution_m, "; it must be above 0"));
+        absl::StrCat("resolution_m is ", NumberText(options.resolution_m), "; it must be above 0"));
   }
   if (!options.origin_m.allFinite()) return absl::InvalidArgumentError("origin_m is not finite");
   if (options.compression_level < 1 || options.compression_level > 19) {

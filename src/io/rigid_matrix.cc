@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
@@ -22,8 +23,8 @@ absl::StatusOr<Pose> PoseOfMatrix(const Eigen::Matrix<double, 3, 4>& matrix,
   }
   if (!(error <= kRotationTolerance)) {
     return absl::InvalidArgumentError(absl::StrCat(
-        where, ": not a rotation (its columns are off unit length and right angles by ", error,
-        "; the limit is ", kRotationTolerance, ")"));
+        where, ": not a rotation (its columns are off unit length and right angles by ",
+        NumberText(error), "; the limit is ", NumberText(kRotationTolerance), ")"));
   }
   return Pose::FromMatrix(matrix);
 }

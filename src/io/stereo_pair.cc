@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
@@ -37,9 +38,9 @@ absl::StatusOr<StereoPair> StereoPair::Make(const Projection& left, const Projec
   }
   const double baseline_m = (CenterOf(right) - CenterOf(left)).norm();
   if (!(baseline_m >= kLeastBaseline_m)) {
-    return absl::InvalidArgumentError(absl::StrCat(where, ": the cameras are ", baseline_m,
-                                                   " m apart; at least ", kLeastBaseline_m,
-                                                   " m are needed"));
+    return absl::InvalidArgumentError(absl::StrCat(where, ": the cameras are ",
+                                                   NumberText(baseline_m), " m apart; at least ",
+                                                   NumberText(kLeastBaseline_m), " m are needed"));
   }
   StereoPair pair;
   pair.left_ = left;

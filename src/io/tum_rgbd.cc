@@ -28,12 +28,14 @@ struct Tables {
   TumTrack track;
   std::map<ObjectId, TumTrack> objects;
   bool masked = false;
+  LeftOut left_out;
 };
 
 // The images that become frames.
 struct Images {
   std::map<int, Path> depth, masks;  // by the frame's number
   std::size_t without_pose = 0, without_mask = 0;
+  LeftOut left_out;  // images without a pose or a mask
 };
 
 std::string Sized(const Path& path, const GrayImage& image) {
@@ -99,9 +101,9 @@ absl::Status CheckOptions(const Path& folder, DepthImage camera) {
 absl::StatusOr<Tables> ReadTables(const Path& folder, const TumRgbdOptions& options) {
   Tables tables;
   std::error_code error;
-  auto depth = ReadTumImages(folder / "depth.txt");
+  auto depth = ReadTumImages(folder / "depth.txt", tables.left_out);
   if (!depth.ok()) return depth.status();
-  auto track = ReadTumTrack(folder / "groundtruth.txt");
+  auto track = ReadTumTrack(folder / "groundtruth.txt", tables.left_out);
   if (!track.ok()) return track.status();
   auto camera = ReadTumCamera(folder);
   if (!camera.ok()) return camera.status();
@@ -113,12 +115,12 @@ absl::StatusOr<Tables> ReadTables(const Path& folder, const TumRgbdOptions& opti
   if (auto status = CheckOptions(folder, tables.camera); !status.ok()) return status;
   tables.masked = std::filesystem::exists(folder / "mask.txt", error);
   if (tables.masked) {
-    auto masks = ReadTumImages(folder / "mask.txt");
+    auto masks = ReadTumImages(folder / "mask.txt", tables.left_out);
     if (!masks.ok()) return masks.status();
     tables.masks = *std::move(masks);
   }
   if (std::filesystem::exists(folder / "object_poses.txt", error)) {
-    auto objects = ReadTumObjects(folder / "object_poses.txt");
+    auto objects = ReadTumObjects(folder / "object_poses.txt", tables.left_out);
     if (!objects.ok()) return objects.status();
     tables.objects = *std::move(objects);
   }
@@ -144,7 +146,11 @@ Images Associate(const Tables& tables, LidarScans& scans) {
     const bool needs_mask = tables.masked && mask == nullptr;
     images.without_pose += T_W_S ? 0 : 1;
     images.without_mask += T_W_S && needs_mask ? 1 : 0;
-    if (!T_W_S || needs_mask) continue;
+    if (!T_W_S || needs_mask) {
+      images.left_out.AddFrame(
+          absl::StrCat(depth.path.string(), ": no ", T_W_S ? "mask" : "pose", " within 0.02 s"));
+      continue;
+    }
     const int number = static_cast<int>(k);
     images.depth[number] = depth.path;
     if (mask != nullptr) images.masks[number] = mask->path;
@@ -205,6 +211,8 @@ absl::StatusOr<LidarFolder> OpenTumRgbd(const Path& given, const TumRgbdOptions&
                      images->without_mask, " no mask in mask.txt"));
   }
   if (auto status = CheckMaskFiles(*images); !status.ok()) return status;
+  *scans.left_out = tables->left_out;
+  scans.left_out->Add(images->left_out);
   scans.points_of = [images](int frame) { return images->depth.at(frame); };
   scans.read = [images, camera = tables->camera](const Path& points, std::span<const RecordedBox>,
                                                  Frame& frame) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "io/word_lines.h"
+#include "io/word_table.h"
 
 namespace clearway {
 namespace {
@@ -27,10 +27,25 @@ constexpr PublishedCamera kPublished[] = {{"freiburg1", 517.3, 516.5, 318.6, 255
                                           {"freiburg2", 520.9, 521.0, 325.1, 249.7},
                                           {"freiburg3", 535.4, 539.2, 320.1, 247.6}};
 
-absl::Status GoesBack(const Words& line, Time stamp, Time before) {
-  return absl::InvalidArgumentError(absl::StrCat(line.where(), ": the stamp ", ToNanoseconds(stamp),
-                                                 " ns does not come after ", ToNanoseconds(before),
-                                                 " ns"));
+constexpr WordFormat kImageList{LastLine::kMayBeOpen, Comments::kHash, Separators::kCommasToo};
+constexpr WordFormat kPoseList{LastLine::kEnds, Comments::kHash, Separators::kCommasToo};
+
+// Sorts by stamps. Of entries with one stamp the first one of the file stays.
+template <class Entry>
+void SortEntries(const Path& path, std::vector<Entry>& entries, LeftOut& left_out) {
+  std::ranges::stable_sort(entries, {}, &Entry::stamp);
+  std::vector<Entry> kept;
+  kept.reserve(entries.size());
+  for (Entry& entry : entries) {
+    if (kept.empty() || kept.back().stamp != entry.stamp) {
+      kept.push_back(std::move(entry));
+      continue;
+    }
+    left_out.AddRow(absl::StrCat(path.string(), ", line ", entry.line, ": a second row of stamp ",
+                                 ToNanoseconds(entry.stamp), " ns; the first: line ",
+                                 kept.back().line));
+  }
+  entries = std::move(kept);
 }
 
 DepthImage CameraOf(double fx, double fy, double cx, double cy, double depth_factor) {
@@ -44,16 +59,19 @@ DepthImage CameraOf(double fx, double fy, double cx, double cy, double depth_fac
 }
 
 absl::StatusOr<DepthImage> ReadCamera(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen, Comments::kHash);
+  auto lines = ReadWordRows(path, kImageList);
   if (!lines.ok()) return lines.status();
-  if (lines->size() != 1) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        path.string(), ": ", lines->size(), " lines, expected one: fx fy cx cy [depth_factor]"));
+  if (lines->rows.size() != 1) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path.string(), ": ", lines->rows.size(),
+                     " lines, expected one: fx fy cx cy [depth_factor]"));
   }
-  Words& line = lines->front();
-  if (line.size() != 4 && line.size() != 5) return WrongCount(line, "fx fy cx cy [depth_factor]");
+  Row& line = lines->rows.front();
+  if (line.size() != 4 && line.size() != 5) {
+    return line.WrongCount("fx fy cx cy [depth_factor]");
+  }
   const DepthImage camera =
-      CameraOf(line.Positive(0), line.Positive(1), line.Number(2), line.Number(3),
+      CameraOf(line.Positive(0), line.Positive(1), line.Coordinate(2), line.Coordinate(3),
                line.size() == 5 ? line.Positive(4) : kDepthFactor);
   if (!line.status().ok()) return line.status();
   return camera;
@@ -80,59 +98,54 @@ const Entry* Nearest(std::pair<const Entry*, const Entry*> around, Time t) {
 
 }  // namespace
 
-absl::StatusOr<TumImages> ReadTumImages(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kMayBeOpen, Comments::kHash);
-  if (!lines.ok()) return lines.status();
+void SortByStamp(const Path& path, TumTrack& track, LeftOut& left_out) {
+  SortEntries(path, track, left_out);
+}
+
+absl::StatusOr<TumImages> ReadTumImages(const Path& path, LeftOut& left_out) {
   TumImages images;
-  for (Words& line : *lines) {
-    if (line.size() != 2) return WrongCount(line, "timestamp filename");
-    const Time stamp = line.Stamp(0);
-    if (!line.status().ok()) return line.status();
-    if (!images.empty() && stamp <= images.back().stamp) {
-      return GoesBack(line, stamp, images.back().stamp);
-    }
-    images.push_back({stamp, path.parent_path() / line.Text(1)});
-  }
+  const auto visit = [&](Row& row) {
+    if (row.size() != 2) return row.WrongCount("timestamp filename");
+    const Time stamp = row.Stamp(0);
+    if (!row.status().ok()) return row.status();
+    images.push_back({stamp, path.parent_path() / std::string(row.Text(1)), row.line()});
+    return absl::OkStatus();
+  };
+  if (auto status = VisitWords(path, kImageList, left_out, visit); !status.ok()) return status;
   if (images.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": lists no image"));
   }
+  SortEntries(path, images, left_out);
   return images;
 }
 
-absl::StatusOr<TumTrack> ReadTumTrack(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kEnds, Comments::kHash);
-  if (!lines.ok()) return lines.status();
+absl::StatusOr<TumTrack> ReadTumTrack(const Path& path, LeftOut& left_out) {
   TumTrack track;
-  for (Words& line : *lines) {
-    if (line.size() != 8) return WrongCount(line, "timestamp tx ty tz qx qy qz qw");
-    const TumPose pose{line.Stamp(0), line.PoseFrom(1)};
-    if (!line.status().ok()) return line.status();
-    if (!track.empty() && pose.stamp < track.back().stamp) {
-      return GoesBack(line, pose.stamp, track.back().stamp);
-    }
-    track.push_back(pose);
-  }
+  const auto visit = [&](Row& row) {
+    if (row.size() != 8) return row.WrongCount("timestamp tx ty tz qx qy qz qw");
+    const TumPose pose{row.Stamp(0), row.PoseFrom(1), row.line()};
+    if (row.status().ok()) track.push_back(pose);
+    return row.status();
+  };
+  if (auto status = VisitWords(path, kPoseList, left_out, visit); !status.ok()) return status;
   if (track.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": holds no pose"));
   }
+  SortByStamp(path, track, left_out);
   return track;
 }
 
-absl::StatusOr<std::map<ObjectId, TumTrack>> ReadTumObjects(const Path& path) {
-  auto lines = ReadWordLines(path, LastLine::kEnds, Comments::kHash);
-  if (!lines.ok()) return lines.status();
+absl::StatusOr<std::map<ObjectId, TumTrack>> ReadTumObjects(const Path& path, LeftOut& left_out) {
   std::map<ObjectId, TumTrack> tracks;
-  for (Words& line : *lines) {
-    if (line.size() != 9) return WrongCount(line, "timestamp id tx ty tz qx qy qz qw");
-    const TumPose pose{line.Stamp(0), line.PoseFrom(2)};
-    const ObjectId id = line.Integer(1, 1, kMostId);
-    if (!line.status().ok()) return line.status();
-    TumTrack& track = tracks[id];
-    if (!track.empty() && pose.stamp <= track.back().stamp) {
-      return GoesBack(line, pose.stamp, track.back().stamp);
-    }
-    track.push_back(pose);
-  }
+  const auto visit = [&](Row& row) {
+    if (row.size() != 9) return row.WrongCount("timestamp id tx ty tz qx qy qz qw");
+    const TumPose pose{row.Stamp(0), row.PoseFrom(2), row.line()};
+    const auto id = static_cast<ObjectId>(row.Integer(1, 1, kMostId));
+    if (row.status().ok()) tracks[id].push_back(pose);
+    return row.status();
+  };
+  if (auto status = VisitWords(path, kPoseList, left_out, visit); !status.ok()) return status;
+  for (auto& [id, track] : tracks) SortByStamp(path, track, left_out);
   return tracks;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "io/file.h"
+#include "clearway/base/file.h"
 
 namespace clearway {
 

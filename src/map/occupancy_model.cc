@@ -3,14 +3,16 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
 
 absl::Status CheckBetween(const char* field, double value, double low, double high) {
   if (value > low && value < high) return absl::OkStatus();  // false for NaN
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value, "; it must lie between ", low, " and ", high));
+  return absl::InvalidArgumentError(absl::StrCat(field, " is ", NumberText(value),
+                                                 "; it must lie between ", NumberText(low), " and ",
+                                                 NumberText(high)));
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
 
 absl::Status CheckPositive(const char* field, double value) {
   if (value > 0 && std::isfinite(value)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(field, ": ", value, " is not finite and above 0"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, ": ", NumberText(value), " is not finite and above 0"));
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ absl::StatusOr<PlanOutcome> Solve(const PlanTask& asked,
   }
   if (work.IsThere()) {
     outcome.status = PlanStatus::kFound;
-    found({{task.start_time}, {task.start}, {}});
+    found({{task.start_time}, {NormalizedConfiguration(task.space, task.start)}, {}});
     return outcome;
   }
   const ob::PlannerTerminationCondition until(

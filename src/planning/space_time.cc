@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "planning/space_time_sampler.h"
 
 namespace clearway {
@@ -194,7 +195,8 @@ constexpr double kLongest_s = 3e9;  // nearly a century; StateMapping knows no m
 
 absl::Status ValidateLimit(const std::string& name, double limit) {
   if (limit > 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(name, ": is ", limit, ", must be above 0"));
+  return absl::InvalidArgumentError(
+      absl::StrCat(name, ": is ", NumberText(limit), ", must be above 0"));
 }
 
 absl::Status ValidatePart(const ob::StateSpace& space, const SpeedLimits& limits) {
@@ -214,8 +216,9 @@ absl::Status ValidatePart(const ob::StateSpace& space, const SpeedLimits& limits
   for (std::size_t i = 0; i < bounds.low.size(); ++i) {
     const double low = bounds.low[i], high = bounds.high[i];
     if (low <= high && high - low <= kWidest) continue;
-    return absl::InvalidArgumentError(absl::StrCat("bounds[", i, "]: are ", low, " to ", high,
-                                                   ", must ascend by at most ", kWidest));
+    return absl::InvalidArgumentError(absl::StrCat("bounds[", i, "]: are ", NumberText(low), " to ",
+                                                   NumberText(high), ", must ascend by at most ",
+                                                   NumberText(kWidest)));
   }
   return absl::OkStatus();
 }
@@ -231,8 +234,9 @@ absl::Status Validate(const SpaceTimeStateSpace& space) {
   }
   if (status.ok()) status = ValidateLimit("latest", space.latest_s());
   if (status.ok() && space.latest_s() > kLongest_s) {
-    status = absl::InvalidArgumentError(
-        absl::StrCat("latest: is ", space.latest_s(), " s, above the limit of ", kLongest_s, " s"));
+    status = absl::InvalidArgumentError(absl::StrCat("latest: is ", NumberText(space.latest_s()),
+                                                     " s, above the limit of ",
+                                                     NumberText(kLongest_s), " s"));
   }
   return status.ok() ? ValidatePart(*space.space(), limits) : status;
 }

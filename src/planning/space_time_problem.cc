@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "planning/tight_limit.h"
 
 namespace clearway {
@@ -70,7 +71,7 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
   if (auto status = Validate(*space_time); !status.ok()) return status;
   if (!(options.tolerance > 0)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("tolerance: is ", options.tolerance, ", must be above 0"));
+        absl::StrCat("tolerance: is ", NumberText(options.tolerance), ", must be above 0"));
   }
   if (start == nullptr) return absl::InvalidArgumentError("start: is null");
   if (goal_part == nullptr) return absl::InvalidArgumentError("goal_part: is null");
@@ -85,7 +86,8 @@ absl::StatusOr<ob::ProblemDefinitionPtr> MakeSpaceTimeProblem(const ob::SpaceInf
   const double latest_s = LatestArrival(*space_time, options, arrival_s);
   if (!(arrival_s <= latest_s)) {
     return absl::InvalidArgumentError(absl::StrCat("goal_part: reached at full speed at ",
-                                                   arrival_s, " s, the limit is ", latest_s, " s"));
+                                                   NumberText(arrival_s), " s, the limit is ",
+                                                   NumberText(latest_s), " s"));
   }
   space_time->Focus(start, goal_part, latest_s);
   auto problem = std::make_shared<ob::ProblemDefinition>(si);

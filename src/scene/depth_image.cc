@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
@@ -29,7 +30,7 @@ absl::Status CheckFinite(const char* field, double value) {
 absl::Status CheckPositive(const char* field, double value) {
   if (!std::isfinite(value)) return CheckFinite(field, value);
   if (value > 0) return absl::OkStatus();
-  return Invalid(field, absl::StrCat("is ", value, "; it must be above 0"));
+  return Invalid(field, absl::StrCat("is ", NumberText(value), "; it must be above 0"));
 }
 
 absl::Status CheckMaskLabels(const std::vector<ObjectId>& labels) {

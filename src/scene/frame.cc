@@ -6,11 +6,11 @@
 #include "absl/container/flat_hash_map.h"
 #include "absl/container/flat_hash_set.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/geometry/unit_quaternion.h"
 
 namespace clearway {
 namespace {
-
-constexpr double kUnitTolerance = 1e-4;
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", what));
@@ -116,17 +116,14 @@ absl::Status ValidatePose(const std::string& field, const Pose& pose, double max
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) {
     return Invalid(field, "is not finite");
   }
-  const double norm = pose.rotation.norm();
-  if (std::abs(norm - 1.0) > kUnitTolerance) {
-    return Invalid(absl::StrCat(field, ".rotation"),
-                   absl::StrCat("has length ", norm, "; a unit quaternion is needed, to within ",
-                                kUnitTolerance));
+  if (!IsNearlyUnit(pose.rotation)) {
+    return Invalid(absl::StrCat(field, ".rotation"), NotUnitText(pose.rotation));
   }
   const double largest_m = pose.translation.cwiseAbs().maxCoeff();
   if (largest_m > max_coordinate_m) {
-    return Invalid(
-        absl::StrCat(field, ".translation_m"),
-        absl::StrCat("reaches ", largest_m, " m; the limit is ", max_coordinate_m, " m"));
+    return Invalid(absl::StrCat(field, ".translation_m"),
+                   absl::StrCat("reaches ", NumberText(largest_m), " m; the limit is ",
+                                NumberText(max_coordinate_m), " m"));
   }
   return absl::OkStatus();
 }

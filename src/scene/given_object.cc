@@ -4,6 +4,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/geometry/hull.h"
 #include "clearway/map/voxel_key.h"
 #include "scene/group_motion.h"
@@ -48,7 +49,7 @@ absl::Status CheckPose(const std::string& pose_field, const std::string& stamp_f
   const VoxelGrid grid(params.resolution_m);
   if (grid.Addressable(pose.T_W_O.translation)) return absl::OkStatus();
   return Invalid(pose_field + ".translation_m",
-                 absl::StrCat("lies outside the addressable space of ", grid.limit_m(),
+                 absl::StrCat("lies outside the addressable space of ", NumberText(grid.limit_m()),
                               " m about the origin"));
 }
 
@@ -88,14 +89,14 @@ std::size_t TriangleCount(const Shape& shape) {
 absl::Status CheckVelocity(const Twist& velocity_O) {
   const double linear_mps = velocity_O.linear.norm(), spin_radps = velocity_O.angular.norm();
   if (!(linear_mps <= kMaxGivenSpeed_mps)) {  // so that it fails for NaN
-    return Invalid(
-        "velocity_object.linear_mps",
-        absl::StrCat("is of length ", linear_mps, "; the limit is ", kMaxGivenSpeed_mps));
+    return Invalid("velocity_object.linear_mps",
+                   absl::StrCat("is of length ", NumberText(linear_mps), "; the limit is ",
+                                NumberText(kMaxGivenSpeed_mps)));
   }
   if (!(spin_radps <= kMaxGivenSpin_radps)) {
-    return Invalid(
-        "velocity_object.angular_radps",
-        absl::StrCat("is of length ", spin_radps, "; the limit is ", kMaxGivenSpin_radps));
+    return Invalid("velocity_object.angular_radps",
+                   absl::StrCat("is of length ", NumberText(spin_radps), "; the limit is ",
+                                NumberText(kMaxGivenSpin_radps)));
   }
   return absl::OkStatus();
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "scene/given_object.h"
 #include "scene/map_delta.h"
 
@@ -35,8 +36,8 @@ absl::Status CheckPoses(const std::string& field, const std::vector<StampedPose>
 absl::Status CheckBound(const std::string& field, const PositionBound& bound) {
   for (const double value : {bound.at_m, bound.speed_mps, bound.accel_mps2}) {
     if (value >= 0 && value <= kMaxBoundTerm) continue;
-    return Malformed(
-        absl::StrCat(field, ".bound: ", value, " does not lie between 0 and ", kMaxBoundTerm));
+    return Malformed(absl::StrCat(field, ".bound: ", NumberText(value),
+                                  " does not lie between 0 and ", NumberText(kMaxBoundTerm)));
   }
   return absl::OkStatus();
 }
@@ -46,8 +47,8 @@ absl::Status CheckCompletion(const std::string& field, const ObjectDelta& delta)
   const auto& [yaw_rad, unseen_end, length_seen] = *delta.completion;
   if (delta.given) return Malformed(absl::StrCat(field, ".completion: is of a given object"));
   if (!(std::abs(yaw_rad) <= 4)) {
-    return Malformed(
-        absl::StrCat(field, ".completion.yaw_rad: ", yaw_rad, " does not lie between -4 and 4"));
+    return Malformed(absl::StrCat(field, ".completion.yaw_rad: ", NumberText(yaw_rad),
+                                  " does not lie between -4 and 4"));
   }
   if (unseen_end < -1 || unseen_end > 1) {
     return Malformed(

@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "scene/dynamic_hits.h"
 #include "scene/frame_objects.h"
 #include "scene/frame_stamps.h"
 #include "scene/label_filter.h"
 #include "scene/labelled_cloud.h"
+#include "scene/normalized_frame.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
 #include "scene/scene_size.h"
@@ -58,9 +60,9 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
   for (const auto& [id, object] : objects) {
     const double reach_m = object->history.back().T_W_O.translation.cwiseAbs().maxCoeff();
     if (reach_m <= limits.max_coordinate_m) continue;
-    return absl::InvalidArgumentError(absl::StrCat(FieldThatPlaces(frame, *object), ": object ", id,
-                                                   " would be at ", reach_m, " m; the limit is ",
-                                                   limits.max_coordinate_m, " m"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        FieldThatPlaces(frame, *object), ": object ", id, " would be at ", NumberText(reach_m),
+        " m; the limit is ", NumberText(limits.max_coordinate_m), " m"));
   }
   return absl::OkStatus();
 }
@@ -80,6 +82,7 @@ absl::StatusOr<FrameReport> SceneBuilder::Apply(const Frame& frame, const ApplyO
     absl::Status status = CheckStamp(frame, scene_.stamp, sensor_stamps_, limits_, options);
     if (!status.ok()) return status;
   }
+  if (const auto renormalized = Renormalized(frame)) return Apply(*renormalized, options);
   if (absl::Status status = CheckFits(frame); !status.ok()) return status;
   if (!scene_.params.MendsSensorPoses()) return ApplyInScene(frame);
 

@@ -1,10 +1,11 @@
 // Changes of the static map that do not come from frames. Each works on a copy, which shares its
 // memory with the scene, so that one that fails, be it for lack of memory, changes nothing.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/map/resolution.h"
 #include "clearway/scene/scene_builder.h"
 #include "scene/dynamic_hits.h"
 #include "scene/scene_size.h"
@@ -23,10 +24,10 @@ VoxelBlock WithPrior(VoxelBlock block, const VoxelBlock& prior, const OccupancyM
 
 absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
   const double resolution_m = scene_.static_map_W.grid().resolution_m();
-  if (std::abs(prior_W.grid().resolution_m() - resolution_m) > 1e-9) {
+  if (!SameResolution(prior_W.grid().resolution_m(), resolution_m)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("map: has voxels of ", prior_W.grid().resolution_m(),
-                     " m; the scene has voxels of ", resolution_m, " m"));
+        absl::StrCat("map: has voxels of ", NumberText(prior_W.grid().resolution_m()),
+                     " m; the scene has voxels of ", NumberText(resolution_m), " m"));
   }
   const std::size_t others = BlocksOf(scene_.objects, dropped_lately_, around_objects_);
   std::size_t blocks = scene_.static_map_W.blocks().size() + others;

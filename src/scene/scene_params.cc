@@ -3,6 +3,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 
 namespace clearway {
 namespace {
@@ -10,13 +11,13 @@ namespace {
 absl::Status CheckResolution(const char* field, double value_m) {
   if (value_m >= 0.001 && value_m <= 100.0) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", value_m, "; it must lie between 0.001 and 100 m"));
+      absl::StrCat(field, " is ", NumberText(value_m), "; it must lie between 0.001 and 100 m"));
 }
 
 absl::Status CheckDuration(const char* field, Duration value) {
   if (value >= Duration::zero() && value <= std::chrono::hours(24)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(field, " is ", ToSeconds(value), " s; it must lie between 0 and 86400 s"));
+  return absl::InvalidArgumentError(absl::StrCat(field, " is ", NumberText(ToSeconds(value)),
+                                                 " s; it must lie between 0 and 86400 s"));
 }
 
 // The way that tells which half of an object was not seen is that of a second.
@@ -25,37 +26,38 @@ absl::Status CheckCompletion(const SceneParams& params) {
   if (params.solid != SolidMode::kCompletedHull || params.history >= kLeast) {
     return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(absl::StrCat("history_s is ", ToSeconds(params.history),
-                                                 " s; with completed hulls it must be at least ",
-                                                 ToSeconds(kLeast), " s"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("history_s is ", NumberText(ToSeconds(params.history)),
+                   " s; with completed hulls it must be at least ", ToSeconds(kLeast), " s"));
 }
 
 absl::Status CheckRestDistance(double value_m) {
   if (value_m >= 0 && value_m <= 10) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("rest_distance_m is ", value_m, "; it must lie between 0 and 10 m"));
+      absl::StrCat("rest_distance_m is ", NumberText(value_m), "; it must lie between 0 and 10 m"));
 }
 
 absl::Status CheckGrazing(double value_m) {
   if (value_m >= 0 && value_m <= 100) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("grazing_m is ", value_m, "; it must lie between 0 and 100 m"));
+      absl::StrCat("grazing_m is ", NumberText(value_m), "; it must lie between 0 and 100 m"));
 }
 
 absl::Status CheckPoseErrors(const char* of, double value_m, double value_rad) {
   if (!(value_m >= 0 && value_m <= 10)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(of, "_pose_error_m is ", value_m, "; it must lie between 0 and 10 m"));
+    return absl::InvalidArgumentError(absl::StrCat(of, "_pose_error_m is ", NumberText(value_m),
+                                                   "; it must lie between 0 and 10 m"));
   }
   if (value_rad >= 0 && value_rad <= 1) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(of, "_pose_error_rad is ", value_rad, "; it must lie between 0 and 1"));
+  return absl::InvalidArgumentError(absl::StrCat(of, "_pose_error_rad is ", NumberText(value_rad),
+                                                 "; it must lie between 0 and 1"));
 }
 
 absl::Status CheckKeepDistance(double value_m) {
   if (value_m == 0 || (value_m >= 1 && std::isfinite(value_m))) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "keep_distance_m is ", value_m, "; it must be at least 1 m, or 0 to forget nothing"));
+  return absl::InvalidArgumentError(
+      absl::StrCat("keep_distance_m is ", NumberText(value_m),
+                   "; it must be at least 1 m, or 0 to forget nothing"));
 }
 
 absl::Status CheckBox(const std::string& field, const Aabb& box) {
@@ -76,7 +78,7 @@ absl::Status CheckBoxes(const char* field, const std::vector<Aabb>& boxes) {
 absl::Status Validate(const SceneParams& params) {
   if (params.rays.max_range_m == 0 || !std::isfinite(params.rays.max_range_m)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("max_range_m is ", params.rays.max_range_m,
+        absl::StrCat("max_range_m is ", NumberText(params.rays.max_range_m),
                      "; it must be finite and positive, or negative for no limit"));
   }
   for (const absl::Status& status :

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/geometry/unit_quaternion.h"
 #include "clearway/scene/frame.h"
 #include "wire/status.h"
 
@@ -81,13 +83,13 @@ double FieldReader::Finite(const std::string& field, double value) {
 
 double FieldReader::NotNegative(const std::string& field, double value) {
   Finite(field, value);
-  if (value < 0) Fail(field, absl::StrCat("is ", value, "; it must not be negative"));
+  if (value < 0) Fail(field, absl::StrCat("is ", NumberText(value), "; it must not be negative"));
   return value;
 }
 
 double FieldReader::Positive(const std::string& field, double value) {
   Finite(field, value);
-  if (value <= 0) Fail(field, absl::StrCat("is ", value, "; it must be above 0"));
+  if (value <= 0) Fail(field, absl::StrCat("is ", NumberText(value), "; it must be above 0"));
   return value;
 }
 
@@ -123,7 +125,7 @@ Pose FieldReader::ReadPose(const std::string& field, bool present, const v1::Pos
   pose.rotation = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z());
   pose.translation = ToVector(proto.translation_m());
   CheckPose(field, pose);
-  return ok() ? pose : Pose{};
+  return ok() ? Normalized(pose) : Pose{};
 }
 
 PositionBound FieldReader::ReadBound(const std::string& field, const v1::PositionBound& proto) {
@@ -161,9 +163,10 @@ std::vector<Pose> FieldReader::Poses(const std::string& field, const v1::PoseArr
   for (std::size_t i = 0; i < count && ok(); ++i) {
     const double* q = proto.rotations_xyzw().data() + 4 * i;
     const double* p = proto.translations_m().data() + 3 * i;
-    poses.push_back({Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}});
-    const absl::Status status = ValidatePose("", poses.back(), kAnyCoordinate_m);
-    if (!status.ok()) CheckPose(absl::StrCat(field, "[", i, "]"), poses.back());
+    const Pose pose{Eigen::Quaterniond(q[3], q[0], q[1], q[2]), {p[0], p[1], p[2]}};
+    const absl::Status status = ValidatePose("", pose, kAnyCoordinate_m);
+    if (!status.ok()) CheckPose(absl::StrCat(field, "[", i, "]"), pose);
+    poses.push_back(Normalized(pose));
   }
   return poses;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "wire/motion_wire.h"
 #include "wire/scene_wire.h"
 #include "wire/status.h"
@@ -125,8 +126,8 @@ absl::StatusOr<Duration> ReadBudget(const v1::PlanRequest& proto, const ServerLi
   const double budget_s = read.Positive("budget_s", proto.budget_s());
   if (!read.ok()) return read.status();
   if (budget_s <= limits.max_planning_s) return FromSeconds(budget_s);
-  return absl::ResourceExhaustedError(
-      absl::StrCat("budget_s: is ", budget_s, "; the limit is ", limits.max_planning_s));
+  return absl::ResourceExhaustedError(absl::StrCat(
+      "budget_s: is ", NumberText(budget_s), "; the limit is ", NumberText(limits.max_planning_s)));
 }
 
 void Write(const Plan& plan, const v1::PlanRequest& request, std::size_t links,

@@ -44,7 +44,9 @@ TEST(ReadStates, NamesLineAndColumn) {
   EXPECT_THAT(ErrorOf("x,y,z,yaw\n1,2,3,4\n1,nan,3,4\n"),
               HasSubstr("path.csv, line 3, column y: "));
   EXPECT_THAT(ErrorOf("x,y,z,yaw,t\n1,2,3,4,later\n"), HasSubstr("line 2, column t: "));
-  EXPECT_THAT(ErrorOf("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,2\n"), HasSubstr("not of unit length"));
+  EXPECT_THAT(
+      ErrorOf("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,2\n"),
+      HasSubstr("the quaternion has length 2; a unit quaternion is needed, to within 0.01"));
 }
 
 TEST(ParseState, TimeIsOptional) {

@@ -138,9 +138,42 @@ TEST_F(CloudFolder, MatricesHaveTheTimesBesideThem) {
   EXPECT_EQ(Open()->frames.read(1)->stamp, TimeFromNanoseconds(600'000'000));
   folder_.Write("times.txt", "0.5\n0.6\n");
   EXPECT_THAT(ErrorOf(), HasSubstr("times.txt: 2 times for the 3 poses of"));
+}
+
+TEST_F(CloudFolder, ABadRowKeepsTheNumbersOfTheOthers) {
+  const std::string nan = "nan nan nan nan nan nan nan nan";
+  WriteClouds({"0.pcd", "1.pcd", "2.pcd"});
+  folder_.Write("poses.txt", "1 1 0 0 0 0 0 1\n" + nan + "\n3 3 0 0 0 0 0 1\n");
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 2)));
+  EXPECT_EQ(Open()->frames.left_out->rows, 1u);
+  EXPECT_EQ(Open()->frames.left_out->frames, 1u);
+  EXPECT_THAT(Open()->frames.description, HasSubstr("1 clouds without a pose are left out"));
+  folder_.Write("poses.txt",
+                "1 0 0 1 0 1 0 0 0 0 1 0\n" + nan + " nan nan nan nan\n1 0 0 3 0 1 0 0 0 0 1 0\n");
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 2)));
+  EXPECT_THAT(Open()->frames.left_out->reasons,
+              ElementsAre(HasSubstr("poses.txt, line 2, word 1: 'nan' is not a finite number"),
+                          HasSubstr("1.pcd: no pose in poses.txt")));
+}
+
+TEST_F(CloudFolder, RowsOfBadTimesAreLeftOut) {
+  folder_.Write("poses.txt", kKitti);
+  WriteClouds({"0.pcd", "1.pcd", "2.pcd"});
+  folder_.Write("times.txt", "0.5\nnan\n0.7\n");
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 2)));
   folder_.Write("times.txt", "0.5\n0.6\n0.6\n");
-  EXPECT_THAT(ErrorOf(),
-              HasSubstr("times.txt, line 3: the stamp 600000000 ns does not come after"));
+  EXPECT_EQ(Places().size(), 2u);
+  EXPECT_THAT(Open()->frames.left_out->reasons,
+              ElementsAre(HasSubstr("600000000 ns: stamps must ascend with the frames"),
+                          HasSubstr("2.pcd: no pose in poses.txt")));
+}
+
+TEST_F(CloudFolder, TablesMayHaveAByteOrderMarkAndCommas) {
+  WriteClouds({"0.pcd", "1.pcd"});
+  folder_.Write("poses.txt",
+                "\xEF\xBB\xBF"
+                "1,1,0,0,0,0,0,1\n2,2,0,0,0,0,0,1\n");
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(2, 1)));
 }
 
 TEST_F(CloudFolder, StampsNeedATableWithStampsUnlessThereAreAsManyPoses) {
@@ -207,8 +240,9 @@ TEST_F(CloudFolder, RefusesTablesThatAreNone) {
   EXPECT_THAT(ErrorOf(), HasSubstr("poses.txt, line 1: 3 words, expected 8 (timestamp"));
   folder_.Write("poses.txt", "2 0 0 0 0 1 0 0 0 0 1 0\n");
   EXPECT_THAT(ErrorOf(), HasSubstr("poses.txt, line 1"));
-  folder_.Write("poses.txt", std::string(kKitti) + "1 0 0 1 0 1\n");
-  EXPECT_THAT(ErrorOf(), HasSubstr("poses.txt, line 4: 6 words, expected 12"));
+  folder_.Write("poses.txt", "nan nan nan nan nan nan nan nan\n");
+  EXPECT_THAT(ErrorOf(), HasSubstr("poses.txt, line 1, word 1: 'nan'"));
+  EXPECT_THAT(ErrorOf(), HasSubstr("no row of the table can be used"));
 }
 
 TEST_F(CloudFolder, RefusesCloudsOfTheWorld) {

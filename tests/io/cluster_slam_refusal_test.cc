@@ -17,10 +17,10 @@ class ClusterSlamRefusal : public ClusterSlam {
   absl::Status StatusWith(const std::string& file, const std::string& bytes) {
     const std::string before = BytesOf(folder_ / file);
     folder_.Write(file, bytes);
-    auto opened = Open();
-    if (opened.ok()) opened = absl::StatusOr<LidarFolder>(opened->frames.read(0).status());
+    const auto opened = Open();
+    const absl::Status status = opened.ok() ? opened->frames.read(0).status() : opened.status();
     folder_.Write(file, before);
-    return opened.status();
+    return status;
   }
   std::string ErrorWith(const std::string& file, const std::string& bytes) {
     const absl::Status status = StatusWith(file, bytes);
@@ -28,25 +28,29 @@ class ClusterSlamRefusal : public ClusterSlam {
     EXPECT_THAT(std::string(status.message()), HasSubstr(file));
     return std::string(status.message());
   }
+  // Of what is left out of the sequence with that in one of its files.
+  std::string LeftOutWith(const std::string& file, const std::string& bytes) {
+    const std::string before = BytesOf(folder_ / file);
+    folder_.Write(file, bytes);
+    const auto opened = Open();
+    if (opened.ok()) {
+      EXPECT_TRUE(opened->frames.read(0).ok());
+    }
+    folder_.Write(file, before);
+    EXPECT_TRUE(opened.ok()) << opened.status();
+    if (!opened.ok() || opened->frames.left_out->Empty()) return "";
+    EXPECT_EQ(opened->frames.left_out->rows + opened->frames.left_out->frames, 1u);
+    EXPECT_THAT(opened->frames.left_out->reasons[0], HasSubstr(file));
+    return opened->frames.left_out->reasons[0];
+  }
 };
 
 TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
-  const std::string poses = BytesOf(folder_ / "pose/0001.txt");
-  EXPECT_THAT(ErrorWith("pose/0001.txt", ""), HasSubstr("no pose of the camera"));
-  EXPECT_THAT(ErrorWith("pose/0001.txt", poses + "0 0 0 1 0 0 0\n"),
-              HasSubstr("0001.txt: 4 poses; frame 0 has 3"));
-  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 0 0 1 0 0\n"), HasSubstr("line 1: 6 words, expected"));
-  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 0 0 1 0 0 1\n"),
-              HasSubstr("line 1, words 4 to 7: no unit quaternion, its length is 1.41"));
-  EXPECT_THAT(ErrorWith("pose/0000.txt", "0 nan 0 1 0 0 0\n"), HasSubstr("line 1, word 2: 'nan'"));
-  EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2\n1 3\n"),
-              HasSubstr("line 2: landmark 1 occurs twice"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", ""), HasSubstr("no landmark has a cluster"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 -2\n"), HasSubstr("line 1, word 2: '-2'"));
   EXPECT_THAT(ErrorWith("landmark_mapping.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
   EXPECT_THAT(ErrorWith("landmarks/left/0000.txt", "1 2\n"), HasSubstr("line 1: 2 words"));
   EXPECT_THAT(ErrorWith("landmarks/right/0000.txt", "1 2 x\n"), HasSubstr("word 3: 'x'"));
-  EXPECT_THAT(ErrorWith("landmarks/right/0000.txt", "1 2 3\n1 2 3\n"), HasSubstr("occurs twice"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", "1 0 0 0\n"), HasSubstr("1 lines of numbers, expected"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", std::string("0") + kClusterCameras + "1 2 3"),
               HasSubstr("7 lines"));
@@ -59,6 +63,28 @@ TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
               HasSubstr("the first matrix is no pinhole's"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"320 0", "320"}})),
               HasSubstr("line 1: 3 words, expected 4 numbers"));
+}
+
+TEST_F(ClusterSlamRefusal, NamesWhatIsLeftOut) {
+  const std::string poses = BytesOf(folder_ / "pose/0001.txt");
+  EXPECT_THAT(LeftOutWith("pose/0001.txt", ""), HasSubstr("no pose of the camera"));
+  EXPECT_THAT(LeftOutWith("pose/0001.txt", poses + "0 0 0 1 0 0 0\n"),
+              HasSubstr("0001.txt: 4 poses; most frames have 3"));
+  const std::string others = poses.substr(poses.find('\n') + 1);
+  EXPECT_THAT(LeftOutWith("pose/0001.txt", "0 0 0 1 0 0\n" + others),
+              HasSubstr("line 1: 6 words, expected"));
+  EXPECT_THAT(LeftOutWith("pose/0001.txt", "0 0 0 1 0 0 1\n" + others),
+              HasSubstr("line 1: words 4 to 7: the quaternion has length 1.41"));
+  EXPECT_THAT(LeftOutWith("pose/0001.txt", "0 nan 0 1 0 0 0\n" + others),
+              HasSubstr("line 1, word 2: 'nan'"));
+  const std::string clusters = BytesOf(folder_ / "landmark_mapping.txt");
+  EXPECT_THAT(
+      LeftOutWith("landmark_mapping.txt", clusters + clusters.substr(0, clusters.find('\n') + 1)),
+      HasSubstr("occurs twice"));
+  const std::string pixels = BytesOf(folder_ / "landmarks/right/0000.txt");
+  EXPECT_THAT(
+      LeftOutWith("landmarks/right/0000.txt", pixels + pixels.substr(0, pixels.find('\n') + 1)),
+      HasSubstr("occurs twice"));
 }
 
 TEST_F(ClusterSlamRefusal, CamerasThatAreSwapped) {

@@ -37,11 +37,12 @@ TEST(LidarFolder, RefusesTablesCutOffAtAnyByte) {
     for (std::size_t size = whole.size(); size-- > 0;) {
       std::filesystem::resize_file(folder / name, size);
       const auto dut = OpenLidarFolder(folder.path());
-      // Cut between two lines, a table is a shorter table; that objects' frames and poses agree is
-      // checked all the same.
+      // Cut between two lines, a table is a shorter table; objects of frames without a pose are
+      // left out.
       const bool between_lines = size > 0 && whole[size - 1] == '\n';
       if (dut.ok()) {
-        EXPECT_TRUE(between_lines && name == "objects_icp.csv") << name << " of " << size;
+        EXPECT_TRUE(between_lines) << name << " of " << size;
+        EXPECT_EQ(dut->frames.left_out->Empty(), name == "objects_icp.csv") << size;
       } else {
         EXPECT_THAT(std::string(dut.status().message()), HasSubstr(".csv"));
       }
@@ -72,23 +73,35 @@ TEST(LidarFolder, RefusesALabelBelowIgnore) {
               HasSubstr("0004.bin, point 1 at byte 26: label -2; the lowest is -1"));
 }
 
-TEST(LidarFolder, RefusesBadRowsNamingThem) {
+// Of the one row that is left out.
+std::string LeftOutOf(const TemporaryFolder& folder) {
+  const auto opened = OpenLidarFolder(folder.path());
+  EXPECT_TRUE(opened.ok()) << opened.status();
+  if (!opened.ok()) return "";
+  EXPECT_EQ(opened->poses.size(), 3u);
+  EXPECT_EQ(opened->boxes.size(), 4u);
+  EXPECT_EQ(opened->frames.left_out->rows, 1u);
+  return opened->frames.left_out->reasons.empty() ? "" : opened->frames.left_out->reasons[0];
+}
+
+TEST(LidarFolder, LeavesBadRowsOutNamingThem) {
   TemporaryFolder folder;
   const auto poses_with = [&](const std::string& row) {
     WriteExample(folder);
     folder.Write("poses_icp.csv", kPoses + row);
-    return ErrorOf(folder);
+    return LeftOutOf(folder);
   };
   EXPECT_THAT(poses_with("x,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("line 5, column frame: 'x'"));
   EXPECT_THAT(poses_with("7,1,0,0,inf,0,1,0,0,0,0,1,0\n"), HasSubstr("line 5, column T03: 'inf'"));
   EXPECT_THAT(poses_with("7,2,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("not a rotation"));
   EXPECT_THAT(poses_with("7,-1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("a mirror image"));
-  EXPECT_THAT(poses_with("6,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("does not come after frame 6"));
+  EXPECT_THAT(poses_with("6,1,0,0,0,0,1,0,0,0,0,1,0\n"),
+              HasSubstr("line 5: a second row of frame 6; the first: line 4"));
 
   const auto objects_with = [&](const std::string& row) {
     WriteExample(folder);
     folder.Write("objects_icp.csv", kObjects + row);
-    return ErrorOf(folder);
+    return LeftOutOf(folder);
   };
   const std::string identity = ",1,0,0,0,0,1,0,0,0,0,1,0\n";
   EXPECT_THAT(objects_with("6,0,Van,0,4,2,2,1" + identity), HasSubstr("line 6, column track: '0'"));
@@ -97,7 +110,37 @@ TEST(LidarFolder, RefusesBadRowsNamingThem) {
   EXPECT_THAT(objects_with("6,9,Van,0,4,1,2,-1" + identity), HasSubstr("column n_points: '-1'"));
   EXPECT_THAT(objects_with("8,9,Van,0,4,1,2,1" + identity), HasSubstr("frame 8 has no pose"));
   EXPECT_THAT(objects_with("6,3,Van,0,4,1,2,1" + identity),
-              HasSubstr("frame 6 has two boxes of track 3"));
+              HasSubstr("line 6: a second box of track 3 in frame 6; the first: line 5"));
+}
+
+TEST(LidarFolder, RefusesTablesThatAreNone) {
+  TemporaryFolder folder;
+  const auto poses_with = [&](const std::string& rows) {
+    const std::string whole = kPoses;
+    WriteExample(folder);
+    folder.Write("poses_icp.csv", whole.substr(0, whole.find('\n') + 1) + rows);
+    return ErrorOf(folder);
+  };
+  EXPECT_THAT(poses_with("4,1,0,0\n4,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("line 2: 4 fields"));
+  EXPECT_THAT(poses_with("four,1,0,0,0,0,1,0,0,0,0,1,0\n"), HasSubstr("line 2, column frame"));
+  EXPECT_THAT(poses_with("4,nan,0,0,0,0,1,0,0,0,0,1,0\n"),
+              AllOf(HasSubstr("line 2, column T00: 'nan'"), HasSubstr("no row of the table")));
+  EXPECT_THAT(poses_with(""), HasSubstr("no pose under the header"));
+}
+
+TEST(LidarFolder, OneRowOfAWrongTimeCostsThatRowAlone) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  const std::string identity = ",1,0,0,0,0,1,0,0,0,0,1,0\n";
+  folder.Write("poses_icp.csv",
+               "frame,timestamp_ns,T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n4,100" +
+                   identity + "5,900" + identity + "6,300" + identity);
+  LidarFolderOptions options;
+  options.allow_missing_points = true;
+  const auto dut = OpenLidarFolder(folder.path(), options);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->poses.size(), 2u);
+  EXPECT_THAT(dut->frames.left_out->reasons.front(), HasSubstr("stamps must ascend"));
 }
 
 TEST(LidarFolder, RefusesARangeWithoutFrames) {

@@ -86,6 +86,30 @@ TEST(MeshFile, CutsPolygonsAndScales) {
   EXPECT_TRUE(BoxAround(*dut).max.isApprox(Eigen::Vector3d(1, 1, 0), 1e-9));
 }
 
+TEST(MeshFile, MaterialsDoNotMatter) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "robots");
+  // Neither a name nor a path by which assimp would look for the file of materials, nor what
+  // stands there, makes a difference.
+  for (const char* library : {"missing.mtl", "../mesh", "a/../../mesh/missing.mtl", "/dev/zero"}) {
+    for (const char* name : {"foo.obj", "longname.obj"}) {
+      folder.Write(std::string("mesh/") + name,
+                   std::string("mtllib ") + library + "\nusemtl red\n" + kTetrahedron);
+      for (const char* place : {"mesh/", "robots/../mesh/", "robots/..//mesh/"}) {
+        const auto dut = ReadMesh(folder / (std::string(place) + name));
+        ASSERT_TRUE(dut.ok()) << dut.status() << library;
+        EXPECT_EQ(dut->triangles.size(), 4u);
+      }
+    }
+  }
+}
+
+TEST(MeshFile, RefusesFolders) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "a.stl");
+  EXPECT_THAT(ErrorOf(folder / "a.stl"), HasSubstr("is a folder"));
+}
+
 TEST(MeshFile, LeavesOutTrianglesWithoutArea) {
   TemporaryFolder folder;
   const auto dut = ReadMesh(

@@ -44,6 +44,34 @@ TEST(OctomapFile, BinaryFormatKeepsStates) {
   });
 }
 
+TEST(OctomapFile, HeadersAreReadByWordsAsOctomapDoes) {
+  const std::string whole = Serialized(ExampleMap(), OctomapFormat::kBinary);
+  const std::size_t res = whole.find("res 0.1\n"), data = whole.find("data\n");
+  const auto with = [&](std::size_t at, std::size_t size, const std::string& text) {
+    return std::string(whole).replace(at, size, text);
+  };
+  const struct {
+    std::string bytes;
+    std::vector<std::string> unknown_keys;
+  } cases[] = {{with(res, 4, "res\t"), {}},
+               {with(res, 0, "   "), {}},
+               {with(res, 4, "res\n\n  "), {}},
+               {with(data, 0, "frame_id map\n"), {"frame_id"}},
+               {with(data, 0, "# data of a robot\nframe_id data\nowner\n"), {"frame_id", "owner"}}};
+  const auto plain = ParseOctomap("m.bt", whole);
+  ASSERT_TRUE(plain.ok()) << plain.status();
+  for (const auto& [bytes, unknown_keys] : cases) {
+    const std::string header = bytes.substr(0, bytes.find("data\n"));
+    const auto dut = ParseOctomap("m.bt", bytes);
+    ASSERT_TRUE(dut.ok()) << dut.status() << header;
+    EXPECT_EQ(dut->map, plain->map) << header;
+    EXPECT_EQ(dut->unknown_keys, unknown_keys) << header;
+    const auto tree = ReadByOctomap(bytes, OctomapFormat::kBinary);
+    ASSERT_NE(tree, nullptr) << header;
+    EXPECT_EQ(StateDifferences(dut->map, *tree), 0) << header;
+  }
+}
+
 TEST(OctomapFile, OctomapReadsWhatWeWrite) {
   const VoxelMap map = ExampleMap();
   for (const OctomapFormat format : {OctomapFormat::kBinary, OctomapFormat::kFull}) {

@@ -50,7 +50,7 @@ TEST(Frame, RefusesPoses) {
   ExpectRefused([](Frame& f) { f.T_W_S.translation.x() = 2e5; }, "world_from_sensor.translation");
   ExpectRefused([](Frame& f) { f.T_W_S.rotation.coeffs().setZero(); },
                 "world_from_sensor.rotation");
-  ExpectRefused([](Frame& f) { f.T_W_S.rotation.w() = 1.01; }, "world_from_sensor.rotation");
+  ExpectRefused([](Frame& f) { f.T_W_S.rotation.w() = 1.011; }, "world_from_sensor.rotation");
   ExpectRefused([](Frame& f) { f.poses[0].T_W_B.translation.y() = INFINITY; },
                 "poses[0].world_from_box");
   ExpectRefused([](Frame& f) { f.motions[0].H_W.rotation.x() = NAN; }, "motions[0].world_motion");

@@ -76,13 +76,13 @@ TEST_F(TlsFilesTest, SwappedFiles) {
 }
 
 TEST_F(TlsFilesTest, FilesThatCannotBeRead) {
-  Refuses("missing", "ours.key", "tls_cert", "No such file or directory");
-  Refuses("ours.cert", "missing", "tls_key", "No such file or directory");
+  Refuses("missing", "ours.key", "tls_cert", "no such file");
+  Refuses("ours.cert", "missing", "tls_key", "no such file");
   Refuses("", "ours.key", "tls_cert", "is a folder");
   folder_.Write("empty", "");
   Refuses("empty", "ours.key", "tls_cert", "is empty");
   folder_.Write("large", std::string((1 << 20) + 1, 'x'));
-  Refuses("ours.cert", "large", "tls_key", "more than 1048576 bytes");
+  Refuses("ours.cert", "large", "tls_key", "1048577 bytes; the limit is 1048576 bytes");
   EXPECT_FALSE(ReadTlsFiles("/dev/zero", Path("ours.key")).ok());
 }
 

@@ -55,6 +55,10 @@ using ConfigurationSpace = std::variant<PlaneSpace, FlightSpace, ArmSpace>;
 // How many numbers a configuration has.
 std::size_t DimensionOf(const ConfigurationSpace& space);
 
+// With a quaternion of length 1, if it has one. For a configuration of a valid task.
+std::vector<double> NormalizedConfiguration(const ConfigurationSpace& space,
+                                            std::vector<double> values);
+
 // From one configuration to another, as early as can be. A plain value.
 struct PlanTask {
   ConfigurationSpace space;

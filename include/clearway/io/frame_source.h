@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "clearway/io/left_out.h"
 #include "clearway/scene/frame.h"
 
 namespace clearway {
@@ -22,6 +24,8 @@ struct FrameSource {
   // Where the origin of W lies in the source's own world; zero unless it was moved
   // (world_origin.h).
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  // What of the files cannot be used; complete once every frame was read. Copies share it.
+  std::shared_ptr<LeftOut> left_out = std::make_shared<LeftOut>();
   std::function<absl::StatusOr<Frame>(std::size_t index)> read;
 };
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -30,7 +31,15 @@ struct OctomapFile {
   VoxelMap map;           // in the frame of the file; its resolution is the file's
   // Voxels whose log-odds were beyond the model's clamps by more than 0.001 and were pulled in.
   std::int64_t clamped_voxels = 0;
+  std::vector<std::string> unknown_keys;  // of the header
 };
+
+// The map in voxels of another size, of which none claims to know more: a voxel is occupied if any
+// voxel of `map` that it overlaps is, free if all of it lies in free voxels, else unknown. What is
+// occupied or free gets the model's clamps as log-odds. Overlaps thinner than a thousandth of the
+// smaller voxel are rounding. RESOURCE_EXHAUSTED above max_voxels.
+absl::StatusOr<VoxelMap> Resample(const VoxelMap& map, double resolution_m,
+                                  std::int64_t max_voxels = OctomapLimits().max_voxels);
 
 // Reads `.bt` and `.ot` of OcTree, ColorOcTree and OcTreeStamped (colours and stamps are left out),
 // told apart by their first line. Pruned leaves are expanded to voxels. A voxel's state is that of
