@@ -67,7 +67,7 @@ DriveServer::DriveServer(std::size_t scans) {
 }
 
 std::uint64_t DriveServer::Apply() {
-  const auto ticket = OrAbort(server_->core().ingestor.Push(drive_.Next()));
+  const auto ticket = OrAbort(server_->core().ingestor.Push({.frame = drive_.Next()}));
   return OrAbort(ticket.answer.get()).version;
 }
 

@@ -6,6 +6,7 @@
 #include "cli/check_flags.h"
 #include "cli/check_output.h"
 #include "cli/commands.h"
+#include "cli/robot_notes.h"
 
 namespace clearway::cli {
 namespace {
@@ -27,6 +28,7 @@ absl::Status Run(const CheckFlags& flags, const Terminal& terminal) {
   if (!connection.ok()) return connection.status();
   const auto checker = RemoteChecker::Pin(*connection, std::move(file->robot));
   if (!checker.ok()) return checker.status();
+  PrintRobotNotes((*checker)->robot(), terminal.err);
 
   const StateBatch batch = BatchOf(*states, file->T_R_L, (*checker)->stamp());
   const auto reply = (*checker)->Check(batch, *options);

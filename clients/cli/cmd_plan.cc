@@ -12,6 +12,7 @@
 #include "cli/borrowed_objects.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
 
@@ -179,6 +180,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
         flags.budget_s, most_s));
   }
   if (!scenario->note.empty()) terminal.err << "note: " << scenario->note << "\n";
+  PrintRobotNotes(scenario->robot, terminal.err);
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
   if (!status.ok()) return status.status();

@@ -43,7 +43,7 @@ TEST_F(PathCheckTest, TimedPosesAreThePathsStates) {
   const auto poses = TimedPoses(*path_, QueryOf(*si_)->mapping()).value();
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[1].time, TimeFromNanoseconds(5'000'000'000));
-  EXPECT_TRUE(poses[1].T_W_L.translation.isApprox(Eigen::Vector3d(0, 4, 0.6)));
+  EXPECT_TRUE(poses[1].T_W_L.translation.isApprox(Eigen::Vector3d(0, 4, 0.65)));
 }
 
 TEST_F(PathCheckTest, AFreePathIsFree) {

@@ -44,14 +44,14 @@ TEST(StateMapping, LowestPointFollowsTheShapesPoses) {
   robot.links[0].shapes[0].T_L_G = Pose::Translation(0, 0, 0.5);  // origin at the robot's foot
   const auto dut = StateMapping::R2(robot, {}, FixedTime{kNow});
   const StateBatch batch = BatchOf(dut, MakeState(MakeRn(2), {3, 1}));
-  EXPECT_TRUE(batch.T_W_L[0].translation.isApprox(Eigen::Vector3d(3, 1, 0.1)));
+  EXPECT_TRUE(batch.T_W_L[0].translation.isApprox(Eigen::Vector3d(3, 1, 0.15)));
   EXPECT_TRUE(batch.T_W_L[0].rotation.isApprox(Eigen::Quaterniond::Identity()));
 }
 
 TEST(StateMapping, R2KeepsItsYaw) {
   const auto dut = StateMapping::R2(DeliveryRobot(), {}, FixedTime{kNow}, kHalfTurn / 2);
   const StateBatch batch = BatchOf(dut, MakeState(MakeRn(2), {3, 1}));
-  EXPECT_TRUE((batch.T_W_L[0] * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(3, 2, 0.6)));
+  EXPECT_TRUE((batch.T_W_L[0] * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(3, 2, 0.65)));
 }
 
 TEST(StateMapping, R3AndSe3AreTheLinksPose) {

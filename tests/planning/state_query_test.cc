@@ -89,7 +89,7 @@ TEST_F(StateQueryTest, NoPointMovesFurtherThanTheStep) {
   }
   EXPECT_LE(longest_m, 0.05);
   EXPECT_GT(longest_m, 0.03);  // without waste
-  EXPECT_TRUE(poses.back().translation.isApprox(Eigen::Vector3d(1, 2, 0.6)));
+  EXPECT_TRUE(poses.back().translation.isApprox(Eigen::Vector3d(1, 2, 0.65)));
 }
 
 TEST_F(StateQueryTest, WaitingIsCheckedInTime) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "clearway/io/lidar_folder.h"
@@ -69,8 +70,9 @@ TEST(TrackGaps, FewerThanOneInAThousandSightingsBeginsAnew) {
   const auto data = DataPath("kitti_tracks");
   if (!data) GTEST_SKIP() << "no recorded tracks";
   Count all;
-  for (const char* sequence : {"0001", "0004", "0011"}) {
-    const auto folder = OpenLidarFolder(*data / sequence, {.allow_missing_points = true});
+  for (const auto& sequence : std::filesystem::directory_iterator(*data)) {
+    if (!sequence.is_directory()) continue;
+    const auto folder = OpenLidarFolder(sequence.path(), {.allow_missing_points = true});
     ASSERT_TRUE(folder.ok()) << folder.status();
     const Count count = Resightings(*folder, 5);
     all.sightings += count.sightings;
