@@ -10,7 +10,7 @@ namespace {
 
 constexpr Duration kHalf = std::chrono::milliseconds(500);
 // Of sources at more than 10 Hz poses are skipped: evidence must not depend on the rate.
-constexpr Duration kSoonStep = std::chrono::milliseconds(90);
+constexpr Duration kSoonStep = std::chrono::milliseconds(95);
 
 // Between the first pose of the track and the last.
 Pose PoseAt(std::span<const StampedPose> track, Time t) {
