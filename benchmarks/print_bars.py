@@ -102,6 +102,12 @@ BETWEEN = {
     for ahead in ("", "_0.5s", "_1s", "_2s", "_3s")
 }
 
+# Of recordings that were left out of the fit, by motion model and rest distance.
+for setting in ("track_rest", "track", "last_motion_rest", "last_motion"):
+    AT_LEAST[f"bound_left_out_{setting}_least_of_classes"] = 0.9
+    for ahead in ("0.5s", "1s", "2s", "3s"):
+        BETWEEN[f"bound_left_out_{setting}_within_{ahead}"] = (0.93, 0.98)
+
 
 def row(name, summary, word, bar, meets):
     if name not in summary:

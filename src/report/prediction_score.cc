@@ -42,27 +42,36 @@ PredictionErrors& PredictionErrors::operator+=(const PredictionErrors& other) {
 PredictionScore::PredictionScore(Truth truth, std::vector<Duration> ahead)
     : truth_(std::move(truth)), ahead_(std::move(ahead)) {}
 
-void PredictionScore::Add(const SceneSnapshot& scene) {
+void ForEachPrediction(const SceneSnapshot& scene, const Truth& truth,
+                       const std::vector<Duration>& ahead,
+                       const std::function<void(const ScoredPrediction&)>& visit) {
   for (const auto& object : scene.objects) {
     if (object->t_k() != scene.stamp || object->bridged) continue;
-    const auto now = BoxOf(truth_, object->id, scene.stamp);
+    const auto now = BoxOf(truth, object->id, scene.stamp);
     if (!now) continue;
-    auto& errors = errors_.try_emplace(object->id, ahead_.size()).first->second;
-    const Pose T_O_W = Inverse(object->history.back().T_W_O);
-    for (std::size_t i = 0; i < ahead_.size(); ++i) {
-      const Time then = scene.stamp + ahead_[i];
-      const auto box = then > truth_.end ? std::nullopt : BoxOf(truth_, object->id, then);
+    const Pose T_O_B = Inverse(object->history.back().T_W_O) * now->T_W_B;
+    for (std::size_t i = 0; i < ahead.size(); ++i) {
+      const Time then = scene.stamp + ahead[i];
+      const auto box = then > truth.end ? std::nullopt : BoxOf(truth, object->id, then);
       if (!box) continue;
-      const Pose T_W_O = PredictPose(*object, then, scene.params.horizon).T_W_O;
-      const Pose predicted_W = T_W_O * (T_O_W * now->T_W_B);
-      const double error_m = (predicted_W.translation - box->T_W_B.translation).norm();
-      const double bound_m = object->bound.At(ToSeconds(ahead_[i]));
-      errors[i].errors_m.push_back(error_m);
-      errors[i].bounds_m.push_back(bound_m);
-      errors[i].within += error_m <= bound_m;
-      errors[i].turns_rad.push_back(predicted_W.rotation.angularDistance(box->T_W_B.rotation));
+      const Pose predicted_W = PredictPose(*object, then, scene.params.horizon).T_W_O * T_O_B;
+      visit({*object, i, (predicted_W.translation - box->T_W_B.translation).norm(),
+             predicted_W.rotation.angularDistance(box->T_W_B.rotation)});
     }
   }
+}
+
+void PredictionScore::Add(const SceneSnapshot& scene) {
+  ForEachPrediction(scene, truth_, ahead_, [&](const ScoredPrediction& prediction) {
+    const MovingObject& object = prediction.object;
+    auto& of_object = errors_.try_emplace(object.id, ahead_.size()).first->second;
+    PredictionErrors& errors = of_object[prediction.ahead];
+    const double bound_m = object.bound.At(ToSeconds(ahead_[prediction.ahead]));
+    errors.errors_m.push_back(prediction.error_m);
+    errors.bounds_m.push_back(bound_m);
+    errors.within += prediction.error_m <= bound_m;
+    errors.turns_rad.push_back(prediction.turn_rad);
+  });
 }
 
 std::map<ObjectId, std::vector<PredictionErrors>> PredictionScore::Errors() const {

@@ -60,7 +60,8 @@ MovingObject GoingAlong(MovingObject part, const MovingObject& leader, const Sce
                           params);
   } else {
     prospect.velocity_O = InFrame(Inverse(T_O_P), *leader.velocity_O);
-    prospect.bound = BoundBy(misses_along, part.history.size() > 1, prospect.velocity_O, false);
+    prospect.bound = BoundBy(misses_along, part.history.size() > 1, prospect.velocity_O,
+                             params.motion == MotionModel::kLastMotion);
   }
   part.velocity_O = prospect.velocity_O;
   part.bound = Saturated(prospect.bound);

@@ -1,83 +1,62 @@
-// By how much the way on which an object is taken to go on may be wrong.
+// The 95 % bound on a predicted position's error.
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "clearway/scene/moving_object.h"
 #include "clearway/scene/scene_params.h"
+#include "scene/past_misses.h"
 
 namespace clearway {
 
-// How far an object of that track, whose newest pose is the last, may be from where GoesOn has it
-// with that velocity.
-// The object's own past tells, if it is known for long enough: how far it was, half a second and a
-// second later and sooner, from where it would have been predicted (the last motion being that
-// between two poses, wherever a frame's motion began). Weighed against what is usual: for the
-// beginning, and for luck. Poses before `since` are no witnesses.
+// The model of the bound. Of an object that moves, a prediction for h seconds ahead is expected to
+// be off by about
+//
+//   e(h) = jitter_gain J + (jitter_rate_gain J / D + response_s a) h + a h^2 / 2.
+//
+// J is the noise of its poses (unknown_jitter_m until three of them are known), D the time between
+// the poses that the velocity comes from, and a the acceleration that an object of its speed v and
+// turn rate w may choose: from rest_accel_mps2 up by speed_accel_mps2 at kFast_mps, and turn_gain
+// times the centripetal acceleration v w. Of an object at rest it is rest_jitter_gain J +
+// rest_drift_mps h.
+//
+// The bound is factor q e(h). q tells how predictable this object is: q^2 is the mean of
+// m^2 / e(h)^2 over its own past predictions, which missed by m, and of prior_count times 1. So the
+// bound is calibrated in the way of conformal prediction: by the errors of the same predictor on
+// the same object.
+//
+// All numbers but rest_accel_mps2 were fitted by quantile regression (R. Koenker, G. Bassett,
+// "Regression Quantiles", Econometrica 46, 1978) to recordings of road users;
+// benchmarks/bound_bench does that again, and shows how far the bounds hold on recordings that were
+// left out. rest_accel_mps2 is set by hand: only one recording has slow objects with smooth tracks,
+// so a fit without it would trust them blindly.
+struct BoundModel {
+  double factor = 1.82;
+  double prior_count = 10.4;
+  double late_weight = 2.35, soon_weight = 0.56;  // of one past prediction (PastMisses)
+
+  double unknown_jitter_m = 0.032;
+  double jitter_gain = 2.35, jitter_rate_gain = 0.14;
+  double response_s = 0.6;
+  double rest_accel_mps2 = 0.05, speed_accel_mps2 = 1.36, turn_gain = 0.31;
+
+  double rest_factor = 0.93;
+  double rest_prior_count = 0.32;
+  double rest_jitter_gain = 12.3, rest_drift_mps = 3.5;
+
+  // Speed of an object of which one pose is known and no motion.
+  double unknown_mps = 15.5;
+};
+
+// The bound of an object of that velocity and past. `has_motion`: more than one of its poses is
+// known. `of_last_motion`: the velocity is that between the last two poses, not fitted to more.
+PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
+                      bool of_last_motion, const BoundModel& model = {});
+
+// The bound of an object of that track, the last pose of which is the newest, that is predicted
+// with that velocity. Poses before `since` do not count.
 PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,
                       const Solid& solid, const SceneParams& params);
-
-// How an object that was known so far, up to the last pose of the span, was taken to go on from
-// there: its velocity in O.
-using GoesOnBy = std::function<Twist(std::span<const StampedPose> past)>;
-
-// Squares of distances by which predictions missed.
-class Misses {
- public:
-  void Add(double squared_m2) {
-    sum_m2_ += squared_m2;
-    ++count_;
-  }
-  int count() const { return count_; }
-  double sum_m2() const { return sum_m2_; }
-  // Root mean square, weighed against what is usual; against that the less, the more they exceed
-  // it.
-  double Scale_m(double usual_m) const;
-
- private:
-  double sum_m2_ = 0;
-  int count_ = 0;
-};
-
-// By how much predictions of less than half a second missed. They are known soon, and tell how far
-// off the velocity was, if not how an object gains speed. What they miss has two parts: the noise
-// of the poses at both ends, however short the time, and the error of the velocity, which grows
-// with the time.
-class SoonMisses {
- public:
-  // `enough`: whether that much time tells something of the velocity by itself.
-  void Add(double ahead_s, double squared_m2, bool enough);
-  // Root mean square of what the velocity's error makes of that time, weighed against what is
-  // usual.
-  double Scale_m(double ahead_s, double usual_m) const;
-
- private:
-  double VelocityError_m2ps2() const;
-
-  // Sums for a straight line of squared misses over squared times ahead.
-  double count_ = 0, s2_ = 0, m2_ = 0, s4_ = 0, s2m2_ = 0;
-  double enough_ = 0, m2ps2_ = 0;  // of what is enough, the squared distances over squared times
-};
-
-struct PastMisses {
-  Misses half, whole;  // after half a second and a whole one, of the last five
-  SoonMisses soon;     // of the last second
-};
-
-// How far the object's centre was from where it would have been predicted, had that been done every
-// half second (for what was missed soon, at every pose), as far as its poses since then reach back.
-PastMisses MissesOf(std::span<const StampedPose> track, Time since, const Solid& solid,
-                    const GoesOnBy& goes_on_by);
-
-// Whether these are clearly less than the others, in enough cases to be no chance.
-bool IsClearlyBetter(const PastMisses& misses, const PastMisses& others);
-
-// The bound that follows from them, of an object of that velocity. `has_motion`: of one of which
-// more than a pose is known. `of_two_mended`: by its last motion, between poses that were mended
-// (scene/mended_pose.h): its misses were beyond the bound too often, for reasons not looked into.
-PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
-                      bool of_two_mended);
 
 // The bound as seen from a prediction that long ahead, which is taken for a pose.
 PositionBound BoundAfter(const PositionBound& bound, double seconds);

@@ -126,20 +126,6 @@ TEST(PositionBound, HoldsForAboutNinetyFiveInAHundred) {
   }
 }
 
-// Of poses that were mended a single one may be far off, and the last motion is between two.
-TEST(PositionBound, AllowsForMendedPosesWhereTheLastMotionGoesOn) {
-  Random random(5);
-  std::vector<StampedPose> track = Track(40, Steady);
-  for (StampedPose& pose : track) pose.T_W_O.translation.y() += 0.1 * random.Normal();
-  SceneParams mends;
-  mends.object_pose_error_m = 0.5;
-  EXPECT_GT(BoundWith(track, mends).At(1), 1.25 * BoundWith(track, SceneParams{}).At(1));
-  EXPECT_LT(BoundWith(track, mends).At(1), 1.36 * BoundWith(track, SceneParams{}).At(1));
-  SceneParams by_track = ByTrack();
-  by_track.object_pose_error_m = 0.5;
-  EXPECT_EQ(BoundWith(track, by_track).At(1), BoundWith(track, ByTrack()).At(1));
-}
-
 // A steady drive, each of whose poses is off.
 std::vector<StampedPose> NoisyTrack(int poses, double noise_m, Random& random) {
   return Track(poses, [&](double t) {
@@ -172,7 +158,7 @@ TEST(PositionBound, OfNoiseGrowsEvenly) {
   Random random(6);
   const PositionBound noisy = BoundWith(NoisyTrack(60, 0.5, random), ByTrack());
   const PositionBound calm = BoundWith(Track(60, Steady), ByTrack());
-  EXPECT_GT(calm.At(3), 6 * calm.At(1));
+  EXPECT_GT(calm.At(3), 5 * calm.At(1));
   EXPECT_LT(noisy.At(3), 4 * noisy.At(1));
 }
 
@@ -183,50 +169,67 @@ TEST(PositionBound, WidensSoonWhenPosesBecomeNoisy) {
   const double calm_m = BoundWith(track, ByTrack()).At(1);
   const auto noisy = NoisyTrack(64, 0.5, random);
   track.insert(track.end(), noisy.begin() + 60, noisy.end());
-  EXPECT_GT(BoundWith(track, ByTrack()).At(1), 3 * calm_m);
+  EXPECT_GT(BoundWith(track, ByTrack()).At(1), 2.5 * calm_m);
 }
 
 TEST(PositionBound, OfOnePoseIsThatOfWhatMayGoAnywhere) {
   const PositionBound dut = BoundOf(Track(1, Steady), Time::min(), {}, CarBody(), ByTrack());
   EXPECT_EQ(dut.At(0), 0);
-  EXPECT_EQ(dut.At(2), 12);
+  EXPECT_EQ(dut.At(2), 2 * BoundModel{}.unknown_mps);
 }
 
-// Squares of misses on a line over the squares of the times ahead.
-TEST(Misses, AreWeighedAgainstWhatIsUsual) {
-  Misses dut;
-  EXPECT_DOUBLE_EQ(dut.Scale_m(0.5), 0.5);
-  dut.Add(0);
-  EXPECT_DOUBLE_EQ(dut.Scale_m(0.5), std::sqrt(2 * 0.25 / 3));
+// Of an object at 1 m/s whose poses jitter by 0.1 m, without turns.
+PastMisses Jittery() {
+  PastMisses misses;
+  misses.jitter_m2 = 4 * 0.01;
+  misses.jitter_count = 3;
+  misses.interval_s = 0.2;
+  return misses;
+}
+const Twist kSlow{Eigen::Vector3d::Zero(), {1, 0, 0}};
+
+// What the header says, without misses: q is 1.
+TEST(BoundModel, GrowsByJitterVelocityAndAcceleration) {
+  const BoundModel model;
+  const PositionBound dut = BoundBy(Jittery(), true, kSlow, true);
+  const double accel_mps2 = model.rest_accel_mps2 + model.speed_accel_mps2 / 2.5;
+  EXPECT_NEAR(dut.at_m, model.factor * model.jitter_gain * 0.1, 1e-9);
+  EXPECT_NEAR(dut.speed_mps,
+              model.factor * (model.jitter_rate_gain * 0.1 / 0.2 + model.response_s * accel_mps2),
+              1e-9);
+  EXPECT_NEAR(dut.accel_mps2, model.factor * accel_mps2, 1e-9);
 }
 
-// One that misses by four times as much is of another kind.
-TEST(Misses, CountTheMoreTheMoreTheyExceedWhatIsUsual) {
-  Misses dut;
-  for (int i = 0; i < 4; ++i) dut.Add(4);
-  EXPECT_GT(dut.Scale_m(0.5), 1.9);
-  EXPECT_LT(dut.Scale_m(0.5), 2);
-}
-
-TEST(SoonMisses, TellsTheVelocitysErrorFromTheNoiseOfPoses) {
-  constexpr double kNoise_m2 = 0.01, kError_mps = 0.6;
-  SoonMisses dut;
-  for (int i = 1; i < 5; ++i) {
-    const double ahead_s = 0.1 * i;
-    dut.Add(ahead_s, kNoise_m2 + ahead_s * ahead_s * kError_mps * kError_mps, i > 2);
+TEST(BoundModel, IsScaledByTheObjectsOwnMisses) {
+  const BoundModel model;
+  const PositionBound before = BoundBy(Jittery(), true, kSlow, true);
+  for (const double missed : {0.0, 0.5, 3.0}) {
+    PastMisses misses = Jittery();
+    const double expected_m = before.At(1) / model.factor;
+    for (int i = 0; i < 5; ++i) misses.late[1].Add(std::pow(missed * expected_m, 2));
+    const double weight = 5 * model.late_weight;
+    const double q =
+        std::sqrt((model.prior_count + weight * missed * missed) / (model.prior_count + weight));
+    const PositionBound dut = BoundBy(misses, true, kSlow, true);
+    EXPECT_NEAR(dut.At(2), q * before.At(2), 1e-5 * before.At(2)) << missed;
   }
-  const double usual_m = 0.5;  // counts as much as four, and two are enough ahead
-  EXPECT_NEAR(dut.Scale_m(1, usual_m), std::sqrt((2 * 0.25 + 2 * 0.36) / 4), 1e-9);
 }
 
-TEST(SoonMisses, OfOneTimeAheadAreTakenForErrorsOfTheVelocity) {
-  SoonMisses dut;
-  dut.Add(0.1, 0.04, true);
-  EXPECT_NEAR(dut.Scale_m(1, 0), std::sqrt(4.0 / 3), 1e-9);  // 0.2 m in 0.1 s
-  EXPECT_NEAR(dut.Scale_m(0.5, 0), std::sqrt(1.0 / 3), 1e-9);
+TEST(BoundModel, IsWiderForWhatTurns) {
+  const Twist turns{{0, 0, 0.5}, {8, 0, 0}}, straight{Eigen::Vector3d::Zero(), {8, 0, 0}};
+  const BoundModel model;
+  EXPECT_NEAR(BoundBy({}, true, turns, false).accel_mps2,
+              BoundBy({}, true, straight, false).accel_mps2 + model.factor * model.turn_gain * 4,
+              1e-9);
 }
 
-TEST(SoonMisses, OfNothingTellNothing) { EXPECT_EQ(SoonMisses().Scale_m(1, 0.5), 0); }
+// The last motion of poses 0.02 s apart magnifies their jitter; a fit to a second of them does not.
+TEST(BoundModel, AllowsForJitterBetweenTwoClosePoses) {
+  PastMisses misses = Jittery();
+  misses.interval_s = 0.02;
+  EXPECT_GT(BoundBy(misses, true, kSlow, true).speed_mps,
+            BoundBy(misses, true, kSlow, false).speed_mps);
+}
 
 TEST(PositionBound, IsFiniteForPosesFarApartOrAtOnce) {
   Random random(4);
@@ -321,7 +324,7 @@ TEST_F(BoundOfObject, OfWhatRestsGoesOnWhileNoPoseComes) {
   // It is never less certain than what was just seen for the first time.
   for (int k = 0; k < 300; ++k) {
     frame.stamp += std::chrono::milliseconds(100);
-    EXPECT_LE(After(frame).bound.At(1), 6);
+    EXPECT_LE(After(frame).bound.At(1), BoundModel{}.unknown_mps);
   }
 }
 

@@ -1,6 +1,7 @@
 // How far predicted objects are from where they really come, and whether that was foreseen.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -32,6 +33,20 @@ struct PredictionErrors {
 
   PredictionErrors& operator+=(const PredictionErrors& other);  // of the same time ahead
 };
+
+// One object's prediction, for one time ahead.
+struct ScoredPrediction {
+  const MovingObject& object;
+  std::size_t ahead;  // index into the times ahead
+  double error_m;
+  double turn_rad;
+};
+
+// Scores the predictions of one version, as PredictionScore does: of objects whose newest pose is
+// of its frame and not bridged, for those times ahead for which there is a true box.
+void ForEachPrediction(const SceneSnapshot& scene, const Truth& truth,
+                       const std::vector<Duration>& ahead,
+                       const std::function<void(const ScoredPrediction&)>& visit);
 
 // Collects prediction errors over the versions of a scene. An error is the distance between the
 // middle of an object's true box at t_k + ahead and that of its true box at t_k, moved as the scene
