@@ -2,24 +2,21 @@
 
 #include <gmock/gmock.h>
 
-#include <sstream>
-
 namespace clearway::cli {
 namespace {
 
 using ::testing::HasSubstr;
 
 std::string ErrorOf(const std::string& text) {
-  std::istringstream in(text);
-  return std::string(ReadStates("path.csv", in).status().message());
+  return std::string(ReadStates("path.csv", text).status().message());
 }
 
 TEST(ReadStates, Empty) { EXPECT_EQ(ErrorOf(""), "path.csv: holds no states"); }
 
 TEST(ReadStates, ReadsColumnsInAnyOrder) {
-  std::istringstream in(
+  const auto dut = ReadStates(
+      "path.csv",
       "t, yaw, z, y, x\n# start\n+1.5, 0, 3, 2, 1\r\n\n7, 1.5707963267948966,0,0,0\n");
-  const auto dut = ReadStates("path.csv", in);
   ASSERT_TRUE(dut.ok()) << dut.status();
   ASSERT_EQ(dut->size(), 2u);
   EXPECT_EQ((*dut)[0].T_W_R.translation, Eigen::Vector3d(1, 2, 3));
@@ -29,8 +26,7 @@ TEST(ReadStates, ReadsColumnsInAnyOrder) {
 }
 
 TEST(ReadStates, ReadsQuaternions) {
-  std::istringstream in("x,y,z,qx,qy,qz,qw\n0,0,0,1,0,0,0\n");
-  const auto dut = ReadStates("path.csv", in);
+  const auto dut = ReadStates("path.csv", "x,y,z,qx,qy,qz,qw\n0,0,0,1,0,0,0\n");
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_LT(((*dut)[0].T_W_R * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
 }

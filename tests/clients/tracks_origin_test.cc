@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <utility>
 
 #include "cli/scenario_tracks.h"
 #include "clients/utm_folder.h"
@@ -34,7 +35,9 @@ std::string Road(const std::string& x0, const std::string& x1, const std::string
 class TracksOrigin : public testing::Test {
  protected:
   absl::StatusOr<std::vector<GivenObject>> Parse(const std::string& fields) {
-    return ParseTracks(Json::parse("{\"for_s\": 1, " + fields + "}"), "tracks", 100);
+    auto tracks = ParseTracks(Json::parse("{\"for_s\": 1, " + fields + "}"), "tracks", 100);
+    if (!tracks.ok()) return tracks.status();
+    return std::move(tracks->objects);
   }
   absl::StatusOr<std::vector<GivenObject>> ParseRoad(const std::string& text,
                                                      const std::string& origin) {
