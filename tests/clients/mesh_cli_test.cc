@@ -13,9 +13,9 @@
 namespace clearway {
 namespace {
 
+using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using nlohmann::json;
 
 // A cube of one metre about the origin as ASCII STL; face i is inside out if `flipped` has i, and
 // there twice if `doubled` has it.

@@ -15,8 +15,7 @@ TEST(ReadStates, Empty) { EXPECT_EQ(ErrorOf(""), "path.csv: holds no states"); }
 
 TEST(ReadStates, ReadsColumnsInAnyOrder) {
   const auto dut = ReadStates(
-      "path.csv",
-      "t, yaw, z, y, x\n# start\n+1.5, 0, 3, 2, 1\r\n\n7, 1.5707963267948966,0,0,0\n");
+      "path.csv", "t, yaw, z, y, x\n# start\n+1.5, 0, 3, 2, 1\r\n\n7, 1.5707963267948966,0,0,0\n");
   ASSERT_TRUE(dut.ok()) << dut.status();
   ASSERT_EQ(dut->size(), 2u);
   EXPECT_EQ((*dut)[0].T_W_R.translation, Eigen::Vector3d(1, 2, 3));

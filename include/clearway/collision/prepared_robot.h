@@ -12,9 +12,9 @@ namespace clearway {
 class RobotGeometry;
 
 // A robot and what its shapes need to be checked quickly: a grid of distances and trees of
-// triangles for each mesh and hull. Meshes count as the solids that they enclose, whichever way their
-// faces are turned (see SolidMeshOf). Made once, handed to the SceneChecker of every scene version.
-// Immutable; any number of threads and checkers may share it.
+// triangles for each mesh and hull. Meshes count as the solids that they enclose, whichever way
+// their faces are turned (see SolidMeshOf). Made once, handed to the SceneChecker of every scene
+// version. Immutable; any number of threads and checkers may share it.
 //
 // Making it takes a millisecond or two for each mesh or hull of a few triangles, 0.1 s for 1,000
 // and 0.8 s for 100,000; up to 0.5 s and 1.2 s if they are not closed. What the shapes of a robot

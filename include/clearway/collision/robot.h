@@ -35,8 +35,8 @@ struct Robot {
 // volume, are not convex or face inward, poses that are not rigid.
 absl::Status Validate(const Robot& robot);
 
-// A robot whose meshes are the solids that they enclose (see SolidMeshOf), and a note on each mesh that
-// had to be changed or is open: "links[0].shapes[1].mesh: 6 of 12 faces turned".
+// A robot whose meshes are the solids that they enclose (see SolidMeshOf), and a note on each mesh
+// that had to be changed or is open: "links[0].shapes[1].mesh: 6 of 12 faces turned".
 struct SolidRobot {
   Robot robot;
   std::vector<std::string> notes;

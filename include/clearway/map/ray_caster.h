@@ -27,9 +27,9 @@ class RayCaster {
   RayCaster& operator=(RayCaster&&) noexcept;
 
   // The update of a map by a cloud, whatever the number of threads: with RayOptions::octomap_ends
-  // the voxels that OctoMap's computeUpdate makes of it; grazing_m is not looked at. All points must be addressable in
-  // the grid. None if the rays pass through or end in more than kMaxScanBlocks
-  // blocks.
+  // the voxels that OctoMap's computeUpdate makes of it; grazing_m is not looked at. All points
+  // must be addressable in the grid. None if the rays pass through or end in more than
+  // kMaxScanBlocks blocks.
   std::optional<ScanUpdate> Cast(const VoxelGrid& grid, const RayCloud& cloud,
                                  const RayOptions& options);
   // The same of that map, which the scan is going to update, with what RayOptions::grazing_m asks
