@@ -21,6 +21,13 @@ void MergeInto(std::vector<double>& all, const std::vector<double>& ascending) {
   std::inplace_merge(all.begin(), all.begin() + middle, all.end());
 }
 
+// The true box, at that version's time, of an object whose predictions are scored.
+std::optional<TrueBox> ScoredBox(const MovingObject& object, const SceneSnapshot& scene,
+                                 const Truth& truth) {
+  if (object.t_k() != scene.stamp || object.bridged) return std::nullopt;
+  return BoxOf(truth, object.id, scene.stamp);
+}
+
 }  // namespace
 
 double PredictionErrors::Quantile(double share) const { return QuantileOf(errors_m, share); }
@@ -46,8 +53,7 @@ void ForEachPrediction(const SceneSnapshot& scene, const Truth& truth,
                        const std::vector<Duration>& ahead,
                        const std::function<void(const ScoredPrediction&)>& visit) {
   for (const auto& object : scene.objects) {
-    if (object->t_k() != scene.stamp || object->bridged) continue;
-    const auto now = BoxOf(truth, object->id, scene.stamp);
+    const auto now = ScoredBox(*object, scene, truth);
     if (!now) continue;
     const Pose T_O_B = Inverse(object->history.back().T_W_O) * now->T_W_B;
     for (std::size_t i = 0; i < ahead.size(); ++i) {
@@ -62,10 +68,12 @@ void ForEachPrediction(const SceneSnapshot& scene, const Truth& truth,
 }
 
 void PredictionScore::Add(const SceneSnapshot& scene) {
+  for (const auto& object : scene.objects) {  // also those of which no prediction can be scored
+    if (ScoredBox(*object, scene, truth_)) errors_.try_emplace(object->id, ahead_.size());
+  }
   ForEachPrediction(scene, truth_, ahead_, [&](const ScoredPrediction& prediction) {
     const MovingObject& object = prediction.object;
-    auto& of_object = errors_.try_emplace(object.id, ahead_.size()).first->second;
-    PredictionErrors& errors = of_object[prediction.ahead];
+    PredictionErrors& errors = errors_.at(object.id)[prediction.ahead];
     const double bound_m = object.bound.At(ToSeconds(ahead_[prediction.ahead]));
     errors.errors_m.push_back(prediction.error_m);
     errors.bounds_m.push_back(bound_m);

@@ -92,10 +92,10 @@ TEST_F(CarlaScans, EvaluateJudgesByActors) {
 }
 
 TEST_F(CarlaScans, ErrorsNameTheLine) {
-  folder_.Write("000400.ply", "ply\nformat binary_little_endian 1.0\n");
+  folder_.Write("000400.ply", "ply\nformat ascii 2.0\nend_header\n");
   const Finished dut = RunClearway({"info", path()});
   EXPECT_NE(dut.exit_code, 0);
-  EXPECT_THAT(dut.err, HasSubstr("000400.ply, line 2: format binary_little_endian"));
+  EXPECT_THAT(dut.err, HasSubstr("000400.ply, line 2: format ascii"));
 }
 
 }  // namespace

@@ -95,9 +95,9 @@ BruteForce::BruteForce(ScenePtr scene, const Robot& robot, const CheckOptions& o
                        const Aabb& region_W)
     : impl_(std::make_unique<Impl>()) {
   impl_->scene = scene;
-  impl_->robot = robot;
+  impl_->robot = WithSolidMeshes(robot).robot;
   impl_->options = options;
-  for (const Link& link : robot.links) {
+  for (const Link& link : impl_->robot.links) {
     auto& shapes = impl_->links.emplace_back();
     for (const LinkShape& shape : link.shapes) shapes.push_back(GeometryOf(shape.shape));
   }

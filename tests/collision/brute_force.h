@@ -16,8 +16,8 @@ struct BruteAnswer {
 };
 
 // The rules of state_checker.h written down once more, as plainly as possible. Shares with the
-// checker the predicted poses, point-in-shape tests and FCL, but none of its searches, closed forms
-// or bounds. Static voxels are looked at in `region_W` alone.
+// checker the predicted poses, the solids of meshes, point-in-shape tests and FCL, but none of its
+// searches, closed forms or bounds. Static voxels are looked at in `region_W` alone.
 class BruteForce {
  public:
   BruteForce(ScenePtr scene, const Robot& robot, const CheckOptions& options, const Aabb& region_W);

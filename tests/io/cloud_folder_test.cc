@@ -165,7 +165,7 @@ TEST_F(CloudFolder, RowsOfBadTimesAreLeftOut) {
   EXPECT_EQ(Places().size(), 2u);
   EXPECT_THAT(Open()->frames.left_out->reasons,
               ElementsAre(HasSubstr("600000000 ns: stamps must ascend with the frames"),
-                          HasSubstr("2.pcd: no pose in poses.txt")));
+                          HasSubstr("1.pcd: no pose in poses.txt")));
 }
 
 TEST_F(CloudFolder, TablesMayHaveAByteOrderMarkAndCommas) {

@@ -331,24 +331,29 @@ TEST_F(BoundOfObject, OfWhatRestsGoesOnWhileNoPoseComes) {
 // Up to the future's end nothing is uncertain, and behind it, it begins there.
 TEST_F(BoundOfObject, CountsFromTheFuturesEndWhenItIsBridged) {
   for (int k = 0; k < 10; ++k) After(Seen(k));
-  ASSERT_TRUE(builder_.SetFuture(5, {{At(2), Pose::Translation(20, 0, 0)}}).ok());
+  ASSERT_TRUE(builder_.SetFuture(5, {{At(2), Steady(2)}}).ok());
   const PositionBound before = scene_->FindObject(5)->bound;
   Frame frame = Seen(15);
   frame.poses.clear();
   EXPECT_EQ(After(frame).bound, before);
-  frame.stamp = At(3);
+  frame = Seen(30);
+  frame.poses.clear();
   EXPECT_NEAR(After(frame).bound.At(1), before.At(2), 1e-9);
 }
 
 TEST_F(BoundOfObject, StaysWhileNoMotionIsEverKnown) {
+  SceneParams params = ByTrack();
+  params.motion_from_points = MotionFromPoints::kOff;
+  SceneBuilder dut(params, {}, pool_);
   Frame frame = Seen(0);
   frame.poses.clear();
-  const PositionBound first = After(frame).bound;
+  ASSERT_TRUE(dut.Apply(frame).ok());
+  const PositionBound first = dut.Publish()->FindObject(5)->bound;
   for (int k = 1; k < 50; ++k) {
     frame.stamp = At(0.1 * k);
-    After(frame);
+    ASSERT_TRUE(dut.Apply(frame).ok());
   }
-  EXPECT_EQ(scene_->FindObject(5)->bound, first);
+  EXPECT_EQ(dut.Publish()->FindObject(5)->bound, first);
 }
 
 TEST_F(BoundOfObject, BeginsWhereAStatedFutureEnds) {

@@ -1,6 +1,6 @@
 #include "server/config.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <tuple>
 
@@ -9,6 +9,8 @@
 
 namespace clearway {
 namespace {
+
+using ::testing::EndsWith;
 
 ServerConfig Read(const std::vector<std::string>& arguments,
                   const std::vector<std::string>& environment = {}) {
@@ -173,7 +175,8 @@ TEST(ServerConfig, RefusesNumbersOutOfRangeNamingKeyValueAndRange) {
     ASSERT_NE(setting, nullptr);
     const std::string expected = absl::StrCat(key, ": is ", value, "; it must lie between ", range);
     EXPECT_EQ(Refusal({absl::StrCat(setting->FlagName(), "=", value)}), expected);
-    EXPECT_EQ(Refusal({}, {absl::StrCat(setting->EnvironmentName(), "=", value)}), expected);
+    EXPECT_EQ(Refusal({}, {absl::StrCat(setting->EnvironmentName(), "=", value)}),
+              absl::StrCat(expected, " (set by ", setting->EnvironmentName(), ")"));
     const std::size_t dot = key.find('.');
     const std::string section =
         dot == std::string::npos ? "" : absl::StrCat("[", key.substr(0, dot), "]\n");
@@ -209,8 +212,9 @@ TEST(ServerConfig, RefusesAFileThatIsNotToml) {
   const TemporaryFolder folder;
   EXPECT_NE(Refusal({"--config", folder.Write("c.toml", "a = [").string()}).find("c.toml"),
             std::string::npos);
-  EXPECT_FALSE(Refusal({"--config", (folder / "missing.toml").string()}).empty());
-  EXPECT_FALSE(Refusal({"--config", (folder / "").string()}).empty());
+  const auto missing = ReadCommandLine({"--config", (folder / "missing.toml").string()}, {});
+  EXPECT_THAT(std::string(missing.status().message()), EndsWith("missing.toml: no such file"));
+  EXPECT_THAT(Refusal({"--config", (folder / "").string()}), EndsWith("is a folder"));
 }
 
 TEST(ServerConfig, AddressesThatOthersReachNeedTls) {
