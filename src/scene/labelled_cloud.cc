@@ -59,6 +59,14 @@ void Add(const Frame& frame, std::size_t i, const PlacedRay& ray, const ScenePar
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> EndsOf(const LabelledCloud& cloud,
+                                    std::span<const std::uint32_t> points) {
+  std::vector<Eigen::Vector3d> ends_W;
+  ends_W.reserve(points.size());
+  for (const std::uint32_t i : points) ends_W.push_back(cloud.ends_W[i].cast<double>());
+  return ends_W;
+}
+
 LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameReport& report) {
   constexpr std::size_t kTogether = 256;  // points placed at once
   const VoxelGrid grid(params.resolution_m);

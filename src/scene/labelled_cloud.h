@@ -1,7 +1,9 @@
 // The points of a frame, sorted by what becomes of them.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -24,6 +26,10 @@ struct LabelledCloud {
 
   RayCloud Rays() const { return {ends_W, kinds, origins_W}; }
 };
+
+// The ends of those points, in W.
+std::vector<Eigen::Vector3d> EndsOf(const LabelledCloud& cloud,
+                                    std::span<const std::uint32_t> points);
 
 // Leaves out the points with label -1, points that are not finite, on the robot's own body, points
 // outside the bounds; counts them in `report`.

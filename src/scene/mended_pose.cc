@@ -68,10 +68,7 @@ Pose MendedPose(const Pose& T_W_T, const LabelledCloud& cloud,
   told.T_W_T = T_W_T;
   std::vector<PoseGuess> guesses = {GuessOfSource(object, told, params)};
   if (const auto guess = GuessOfTrack(object, stamp)) guesses.push_back(*guess);
-  std::vector<Eigen::Vector3d> points_W;
-  points_W.reserve(points.size());
-  for (const std::uint32_t i : points) points_W.push_back(cloud.ends_W[i].cast<double>());
-  const Pose T_W_O = RegisterView(object.map_O, points_W, guesses);
+  const Pose T_W_O = RegisterView(object.map_O, EndsOf(cloud, points), guesses);
   if (!points.empty()) NoteView(T_W_O, told);
   return T_W_O;
 }

@@ -117,19 +117,6 @@ void Bridge(const Eigen::Vector3d& off_W, Time stamp, const SceneParams& params,
   object.bridged = true;
 }
 
-// What the motion of the next view can be told from.
-LastView ViewOf(const LabelledCloud& cloud, std::span<const std::uint32_t> points,
-                const Pose& T_O_W, Time stamp) {
-  LastView view;
-  view.stamp = stamp;
-  for (const std::uint32_t i : points) {
-    const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
-    view.centroid_O += p_O / static_cast<double>(points.size());
-    view.box_O.Extend(p_O);
-  }
-  return view;
-}
-
 }  // namespace
 
 MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClue& clue, Time stamp,
@@ -243,7 +230,9 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
     object.completion = CompletionOf(object, sensor_W.cast<double>());
   }
   object = WithMap(std::move(object), std::move(map_O));
-  if (MayBeEstimated(object, params)) object.last_view = ViewOf(cloud, points, T_O_W, stamp);
+  if (MayBeEstimated(object, params)) {
+    object.last_view = ViewOf(EndsOf(cloud, points), T_O_W, stamp, params);
+  }
   object.last_seen = stamp;
   ++object.frames_seen;
 }

@@ -24,13 +24,6 @@ double BoundAt(const MovingObject& object, Time t, bool is_estimated) {
   return is_estimated && !object.velocity_O ? std::max(bound_m, kFastest_mps * ahead_s) : bound_m;
 }
 
-std::vector<Eigen::Vector3d> PointsOf(const LabelledCloud& cloud, const ObjectClue& clue) {
-  std::vector<Eigen::Vector3d> points_W;
-  points_W.reserve(clue.points.size());
-  for (const std::uint32_t i : clue.points) points_W.push_back(cloud.ends_W[i].cast<double>());
-  return points_W;
-}
-
 }  // namespace
 
 std::optional<ObjectIssue> PlaceByPoints(const MovingObject& object, const LabelledCloud& cloud,
@@ -51,7 +44,7 @@ std::optional<ObjectIssue> PlaceByPoints(const MovingObject& object, const Label
                        ToSeconds(params.horizon)};
   }
   const bool is_estimated = motion == nullptr && MayBeEstimated(object, params);
-  const std::vector<Eigen::Vector3d> points_W = PointsOf(cloud, clue);
+  const std::vector<Eigen::Vector3d> points_W = EndsOf(cloud, clue.points);
   Pose T_W_O = motion != nullptr ? motion->H_W * StartOf(*motion, object, stamp, params)
                                  : PredictPose(object, stamp, params.horizon).T_W_O;
   const GateOffset offset = OffsetFrom(object, T_W_O, points_W);

@@ -31,9 +31,9 @@ void AddPoint(const Eigen::Vector3d& p_M, const SurfaceCells::Cell& cell, double
 
 // Of how many deviations T_Q_M is off from the guess.
 double SquareOff(const Twist& off, const PoseGuess& guess) {
-  const double metres = off.linear.norm() / guess.sigma_m;
-  const double radians = off.angular.norm() / guess.sigma_rad;
-  return metres * metres + radians * radians;
+  const Eigen::Quaterniond& R_Q_M = guess.T_Q_M.rotation;
+  return (R_Q_M * off.linear).cwiseQuotient(guess.sigma_m).squaredNorm() +
+         (R_Q_M * off.angular).cwiseQuotient(guess.sigma_rad).squaredNorm();
 }
 
 // Cauchy's: like the square near zero, and hardly growing beyond `sigmas`.
@@ -45,11 +45,12 @@ double RobustSquare(double square, double sigmas) {
 void AddGuess(const Pose& T_Q_M, const PoseGuess& guess, double sigmas, Equations& equations) {
   const Twist off = Log(Inverse(guess.T_Q_M) * T_Q_M);
   const double weight = 1 / (1 + SquareOff(off, guess) / (sigmas * sigmas));
+  const Eigen::Matrix3d R_Q_M = guess.T_Q_M.rotation.toRotationMatrix();
   for (int axis = 0; axis < 3; ++axis) {
-    Equations::Row linear{}, angular{};
-    linear[axis] = angular[3 + axis] = 1;
-    equations.Add(weight / (guess.sigma_m * guess.sigma_m), linear, -off.linear[axis]);
-    equations.Add(weight / (guess.sigma_rad * guess.sigma_rad), angular, -off.angular[axis]);
+    const Eigen::Vector3d a = R_Q_M.row(axis);  // Q's axis in M
+    const double m = guess.sigma_m[axis], rad = guess.sigma_rad[axis];
+    equations.Add(weight / (m * m), {a.x(), a.y(), a.z(), 0, 0, 0}, -a.dot(off.linear));
+    equations.Add(weight / (rad * rad), {0, 0, 0, a.x(), a.y(), a.z()}, -a.dot(off.angular));
   }
 }
 

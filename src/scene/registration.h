@@ -12,10 +12,16 @@ namespace clearway {
 // The frame Q is the one that points are given in (of a view of an object: the world; of a scan:
 // the sensor), and M the one that the cells of the map are given in.
 
-// A guess of T_Q_M, and how far it may be off (standard deviation along and about each axis of M).
+// A guess of T_Q_M, and how far it may be off (standard deviation along and about each axis of Q).
 struct PoseGuess {
+  PoseGuess(const Pose& pose, const Eigen::Vector3d& along_m, const Eigen::Vector3d& about_rad)
+      : T_Q_M(pose), sigma_m(along_m), sigma_rad(about_rad) {}
+  // The same for all axes.
+  PoseGuess(const Pose& pose, double along_m, double about_rad)
+      : PoseGuess(pose, Eigen::Vector3d::Constant(along_m), Eigen::Vector3d::Constant(about_rad)) {}
+
   Pose T_Q_M;
-  double sigma_m, sigma_rad;
+  Eigen::Vector3d sigma_m, sigma_rad;
 };
 
 // Steps of Gauss and Newton over cells of one size. What is farther than `scale` deviations from

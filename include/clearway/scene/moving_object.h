@@ -94,8 +94,8 @@ struct ToldPose {
   int views = 0;  // of the object that this is taken from
 };
 
-// How the points of the last frame that showed an object lay, in O. Of an object whose motion may
-// have to be estimated.
+// How the points of the last frame that showed an object lay, in O; each voxel with points counts
+// once. Of an object whose motion may have to be estimated.
 struct LastView {
   Time stamp;
   Eigen::Vector3d centroid_O = Eigen::Vector3d::Zero();
