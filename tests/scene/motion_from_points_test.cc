@@ -122,6 +122,37 @@ TEST_F(MotionFromPointsTest, APedestrian) {
   EXPECT_LT(errors.size_m, 0.45);
 }
 
+TEST_F(MotionFromPointsTest, ACarThatClimbs) {
+  SceneBuilder dut = Builder();
+  const Way way = [](double t) { return Upright(-12 + 8 * t, 6, 0.8 * t, 0); };
+  const Errors errors = Follow(dut, way, kCar, 30);
+  EXPECT_LT(errors.position_m, 0.4);
+  EXPECT_LT(errors.speed_mps, 0.6);
+  EXPECT_LT(errors.size_m, 0.5);
+}
+
+// Where the sensor is near, points are denser: the middle of all of them stays beside the sensor.
+TEST_F(MotionFromPointsTest, ATruckWhoseSideIsDenserWhereItIsNear) {
+  const Eigen::Vector3d size_m(8, 2.5, 3);
+  SceneBuilder dut = Builder();
+  Pose T_O_B;
+  Pose T_W_B;
+  for (int k = 0; k < 40; ++k) {
+    T_W_B = Upright(-30 + 1.5 * k, 4, 0, 0);
+    Frame sparse = FrameAt(k * kPeriod_s), frame = FrameAt(k * kPeriod_s);
+    AddVisible(sparse, 1, T_W_B, size_m);
+    for (const Eigen::Vector3f& p_S : sparse.points_S) {
+      const int copies = 1 + static_cast<int>(200 / p_S.squaredNorm());
+      for (int i = 0; i < copies; ++i) AddPoint(frame, 1, p_S.cast<double>());
+    }
+    ASSERT_TRUE(dut.Apply(frame).ok());
+    if (k == 0) T_O_B = Inverse(dut.Publish()->objects[0]->history.back().T_W_O) * T_W_B;
+  }
+  const MovingObject& object = *dut.Publish()->objects[0];
+  EXPECT_LT((object.history.back().T_W_O * T_O_B * Inverse(T_W_B)).translation.norm(), 0.4);
+  EXPECT_LT(((*object.solid).box_O.Size() - size_m).maxCoeff(), 0.5);
+}
+
 TEST_F(MotionFromPointsTest, TheSecondSightGivesAVelocity) {
   SceneBuilder dut = Builder();
   const Way way = [](double t) { return Upright(10 + 12 * t, 5, 0, 0); };
