@@ -52,19 +52,16 @@ Eigen::Quaterniond YawOf(const Eigen::Quaterniond& turn) {
 
 // How far a pose may be off that is predicted so long ahead: by the object's velocity, or, if that
 // is not known, because it may set out at once. Along z and about level axes much less: a few beams
-// that sweep over an object look like a view of it that rises or tilts. So only half of its
-// vertical speed counts, and none of its tilting.
+// that sweep over an object look like a view of it that rises or tilts. It does not go on tilting.
 PoseGuess GuessOfTrack(const MovingObject& object, Time stamp, const SceneParams& params) {
   constexpr double kUnknown_mps = 10, kKnown_mps = 4;
-  constexpr double kUnknownClimb_mps = 0.3, kClimb_mps = 0.1;
+  constexpr double kClimb_mps = 0.3;
   const double ahead_s = ToSeconds(stamp - object.t_k());
-  const Pose& before = object.history.back().T_W_O;
+  const Eigen::Quaterniond& before = object.history.back().T_W_O.rotation;
   Pose T_W_O = PredictPose(object, stamp, params.horizon).T_W_O;
-  T_W_O.translation.z() = 0.5 * (before.translation.z() + T_W_O.translation.z());
-  T_W_O.rotation = YawOf(T_W_O.rotation * before.rotation.conjugate()) * before.rotation;
-  const bool known = object.velocity_O.has_value();
-  const double level_m = 0.05 + (known ? kKnown_mps : kUnknown_mps) * ahead_s;
-  const double climb_m = 0.01 + (known ? kClimb_mps : kUnknownClimb_mps) * ahead_s;
+  T_W_O.rotation = YawOf(T_W_O.rotation * before.conjugate()) * before;
+  const double level_m = 0.05 + (object.velocity_O ? kKnown_mps : kUnknown_mps) * ahead_s;
+  const double climb_m = 0.01 + kClimb_mps * ahead_s;
   const double tilt_rad = 0.001 + 0.005 * ahead_s, yaw_rad = 0.01 + 0.2 * ahead_s;
   return {T_W_O, {level_m, level_m, climb_m}, {tilt_rad, tilt_rad, yaw_rad}};
 }
