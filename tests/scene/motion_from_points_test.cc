@@ -149,8 +149,8 @@ TEST_F(MotionFromPointsTest, ATruckWhoseSideIsDenserWhereItIsNear) {
     if (k == 0) T_O_B = Inverse(dut.Publish()->objects[0]->history.back().T_W_O) * T_W_B;
   }
   const MovingObject& object = *dut.Publish()->objects[0];
-  EXPECT_LT((object.history.back().T_W_O * T_O_B * Inverse(T_W_B)).translation.norm(), 0.4);
-  EXPECT_LT(((*object.solid).box_O.Size() - size_m).maxCoeff(), 0.5);
+  EXPECT_LT((object.history.back().T_W_O * T_O_B * Inverse(T_W_B)).translation.norm(), 0.6);
+  EXPECT_LT(((*object.solid).box_O.Size() - size_m).maxCoeff(), 0.75);
 }
 
 TEST_F(MotionFromPointsTest, TheSecondSightGivesAVelocity) {
