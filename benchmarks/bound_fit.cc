@@ -13,7 +13,7 @@ constexpr std::size_t kMaxCases = 150;
 constexpr double kLeast_m = 0.02;
 // Share of the predictions to keep within their bounds. Above 0.95 for objects in motion: a new
 // recording differs from those that are known.
-constexpr double kShareInMotion = 0.965, kShareElse = 0.95;
+constexpr double kShareInMotion = 0.97, kShareElse = 0.95;
 
 struct WeightedCase {
   const BoundCase* of;
