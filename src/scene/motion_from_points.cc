@@ -73,7 +73,7 @@ PoseGuess GuessOfView(const MovingObject& object, const LastView& last,
                       std::span<const Eigen::Vector3d> points_W, Time stamp) {
   constexpr double kVoxels = 1.5, kClimb_m = 0.3;
   const Eigen::Quaterniond& turned = object.history.back().T_W_O.rotation;
-  const Pose unturned(turned.conjugate(), Eigen::Vector3d::Zero());
+  const Pose unturned{turned.conjugate(), Eigen::Vector3d::Zero()};
   const LastView now = ViewOfThinned(points_W, unturned, stamp);
   const double changed_m = (now.box_O.Size() - last.box_O.Size()).norm();
   const double level_m = std::hypot(kVoxels * object.map_O.grid().resolution_m(), changed_m);

@@ -31,18 +31,18 @@ namespace clearway {
 // left out. rest_accel_mps2 is set by hand: only one recording has slow objects with smooth tracks,
 // so a fit without it would trust them blindly.
 struct BoundModel {
-  double factor = 1.82;
-  double prior_count = 10.4;
-  double late_weight = 2.35, soon_weight = 0.56;  // of one past prediction (PastMisses)
+  double factor = 1.71;
+  double prior_count = 13.2;
+  double late_weight = 3.38, soon_weight = 0.56;  // of one past prediction (PastMisses)
 
-  double unknown_jitter_m = 0.032;
-  double jitter_gain = 2.35, jitter_rate_gain = 0.14;
-  double response_s = 0.6;
-  double rest_accel_mps2 = 0.05, speed_accel_mps2 = 1.36, turn_gain = 0.31;
+  double unknown_jitter_m = 0.04;
+  double jitter_gain = 0.22, jitter_rate_gain = 0.29;
+  double response_s = 0.71;
+  double rest_accel_mps2 = 0.05, speed_accel_mps2 = 1.37, turn_gain = 0.38;
 
-  double rest_factor = 0.93;
-  double rest_prior_count = 0.32;
-  double rest_jitter_gain = 12.3, rest_drift_mps = 3.5;
+  double rest_factor = 0.92;
+  double rest_prior_count = 0.36;
+  double rest_jitter_gain = 12.7, rest_drift_mps = 3.7;
 
   // Speed of an object of which one pose is known and no motion.
   double unknown_mps = 15.5;
