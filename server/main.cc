@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/config.h"
+#include "server/memory_use.h"
 #include "server/server.h"
 #include "server/thread_priority.h"
 #include "spdlog/sinks/stdout_color_sinks.h"
@@ -31,6 +32,7 @@ sigset_t BlockSignals() {
 }
 
 int Serve(const ServerConfig& config) {
+  KeepFewArenas();
   const sigset_t signals = BlockSignals();
   PreferShortTurns();  // of the threads that answer; those that apply frames give way
   absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config);

@@ -3,7 +3,9 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <thread>
 
 namespace clearway {
 
@@ -17,6 +19,11 @@ MemoryUse CurrentMemoryUse() {
   const struct mallinfo2 heap = mallinfo2();
   use.heap_bytes_in_use = heap.uordblks + heap.hblkhd;  // from arenas, and mapped by themselves
   return use;
+}
+
+void KeepFewArenas() {
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  mallopt(M_ARENA_MAX, std::max(2, processors));
 }
 
 }  // namespace clearway

@@ -13,4 +13,9 @@ struct MemoryUse {
 // Any thread may call it.
 MemoryUse CurrentMemoryUse();
 
+// Has malloc keep one arena a processor (at least two), instead of glibc's eight: blocks that one
+// thread takes and another frees leave holes in every arena, so resident memory creeps up for
+// hours although the heap in use does not grow. Call it before other threads start.
+void KeepFewArenas();
+
 }  // namespace clearway
