@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "box_corners.h"
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/prediction_score.h"
 #include "clearway/scene/scene_builder.h"

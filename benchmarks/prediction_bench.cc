@@ -14,6 +14,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "box_corners.h"
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/box_fit.h"
 #include "clearway/report/prediction_score.h"
@@ -41,23 +42,6 @@ SceneParams ByTrack() {
   params.motion = MotionModel::kTrack;
   params.rest_distance_m = 0.6;  // as the demo's
   return params;
-}
-
-// The corners of the frame's boxes, instead of its scan.
-void SeeBoxes(const LidarFolder& folder, Frame& frame) {
-  frame.points_S.clear();
-  frame.labels.clear();
-  const Pose T_S_W = Inverse(frame.T_W_S);
-  for (const RecordedBox& box : folder.boxes) {
-    if (box.frame != static_cast<int>(frame.sequence)) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d sides(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5,
-                                  corner & 4 ? 0.5 : -0.5);
-      const Eigen::Vector3d p_S = T_S_W * box.T_W_B * box.size_m.cwiseProduct(sides);
-      frame.points_S.push_back(p_S.cast<float>());
-      frame.labels.push_back(box.id);
-    }
-  }
 }
 
 struct Judged {

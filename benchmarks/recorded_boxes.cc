@@ -8,14 +8,11 @@
 #include <span>
 #include <utility>
 
+#include "box_corners.h"
 #include "clearway/geometry/hull.h"
 
 namespace clearway::bench {
 namespace {
-
-std::span<const RecordedBox> BoxesOf(const LidarFolder& folder, int frame) {
-  return std::ranges::equal_range(folder.boxes, frame, {}, &RecordedBox::frame);
-}
 
 Frame FrameOf(const LidarFolder& folder, std::size_t index) {
   Frame frame;
@@ -35,21 +32,6 @@ Frame FrameOf(const LidarFolder& folder, std::size_t index) {
 }
 
 }  // namespace
-
-void SeeBoxes(const LidarFolder& folder, Frame& frame) {
-  frame.points_S.clear();
-  frame.labels.clear();
-  const Pose T_S_W = Inverse(frame.T_W_S);
-  for (const RecordedBox& box : BoxesOf(folder, static_cast<int>(frame.sequence))) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d sides(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5,
-                                  corner & 4 ? 0.5 : -0.5);
-      const Eigen::Vector3d p_S = T_S_W * box.T_W_B * box.size_m.cwiseProduct(sides);
-      frame.points_S.push_back(p_S.cast<float>());
-      frame.labels.push_back(box.id);
-    }
-  }
-}
 
 LidarFolder FolderOf(const std::vector<cli::Track>& tracks, const std::string& type) {
   std::map<std::int64_t, std::vector<RecordedBox>> boxes_at;  // by milliseconds

@@ -5,13 +5,9 @@
 #include <vector>
 
 #include "clearway/io/lidar_folder.h"
-#include "clearway/scene/frame.h"
 #include "cli/tracks.h"
 
 namespace clearway::bench {
-
-// Replaces the frame's scan by the corners of its boxes.
-void SeeBoxes(const LidarFolder& folder, Frame& frame);
 
 // Tracks as a folder of boxes of that type, with the motions between them. Times are rounded to
 // milliseconds; what does not move is left out.

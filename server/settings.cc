@@ -219,7 +219,8 @@ std::vector<Setting> SceneSettings() {
                        "last or track: extrapolate the last motion, or a fit of the track"),
       CLEARWAY_SETTING("scene.motion_from_points", scene.motion_from_points,
                        "auto, on or off: estimate the motion of objects that come without one "
-                       "from their points; auto: of those that never had one"),
+                       "from their points (z of the world must point up); auto: of those "
+                       "that never had one"),
       CLEARWAY_SETTING("scene.horizon_s", scene.horizon, "how long motions are extrapolated",
                        kUpToADay_s),
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,

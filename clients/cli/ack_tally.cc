@@ -36,6 +36,12 @@ FrameSender::OnAck AckTally::OnAck() {
   };
 }
 
+void AckTally::ServerRestarted() {
+  const std::lock_guard lock(mutex_);
+  counts_.lost = counts_.answered - counts_.refused;
+  counts_.last = PushAck();
+}
+
 AckTally::Counts AckTally::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;

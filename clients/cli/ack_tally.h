@@ -23,6 +23,7 @@ class AckTally {
     Duration max_late_by{};    // of those
     std::uint64_t points = 0;  // of the answered frames
     PushAck last;              // of the newest version that was named
+    std::size_t lost = 0;      // applied by a server that has restarted since
     ObjectNotes objects;
     absl::Status first_refusal;  // OK if there is none
     std::string first_refused_sensor;
@@ -32,6 +33,8 @@ class AckTally {
   // To be called before each frame is sent; answers come in the order sent.
   void Sent(const Frame& frame);
   FrameSender::OnAck OnAck();
+  // The answers to come are those of a server with another scene.
+  void ServerRestarted();
   Counts counts() const;
 
  private:

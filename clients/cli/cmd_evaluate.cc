@@ -47,6 +47,7 @@ struct Flags {
   bool reidentify = false, filter_labels = false, clear_objects = false;
   double dynamic_life_s = 0;
   ErrorFlags errors;
+  bool allow_stamp_jump = false;
   bool json = false;
   std::string html;
 };
@@ -102,7 +103,7 @@ absl::Status MakeScene(const TrueSource& source, FrameRange range, const ScenePa
     auto frame = source.frames.read(k);
     if (!frame.ok()) return frame.status();
     const Frame told = teller.Tell(*frame);
-    const auto report = builder.Apply(told);
+    const auto report = builder.Apply(told, {.allow_stamp_jump = flags.allow_stamp_jump});
     if (!report.ok()) {
       return InContext(absl::StrCat("frame ", k, " of ", flags.spec), report.status());
     }
@@ -260,6 +261,8 @@ void AddEvaluate(Cli& cli) {
                    "As of clearway-server --scene-dynamic-life-s")
       ->check(Between(0, 1000))
       ->capture_default_str();
+  command->add_flag("--allow-stamp-jump", flags->allow_stamp_jump,
+                    "Go on across gaps of more than an hour between stamps");
   command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
       ->check([](const std::string& file) { return file.empty() ? "name a file" : ""; })
       ->type_name("FILE");

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "clearway/io/file_type.h"
 #include "clearway/io/ply.h"
 #include "cli/commands.h"
@@ -98,7 +99,9 @@ absl::StatusOr<Exported> WriteTo(std::ostream& stream, const SceneClient& client
 absl::StatusOr<Exported> WriteFile(const std::string& path, const SceneClient& client,
                                    const ExportTarget& target, MapFormat format,
                                    const std::optional<Eigen::Vector3d>& origin_m) {
-  const std::string partial = path + ".partial";
+  const auto whole = OutputFile(path);
+  if (!whole.ok()) return whole.status();
+  const std::string partial = whole->string() + ".partial";
   std::ofstream file(partial, std::ios::binary | std::ios::trunc);
   if (!file) {
     return absl::UnavailableError(
@@ -106,10 +109,9 @@ absl::StatusOr<Exported> WriteFile(const std::string& path, const SceneClient& c
   }
   auto exported = WriteTo(file, client, target, format, origin_m);
   file.close();
-  std::error_code error;
   if (exported.ok() && file) {
-    std::filesystem::rename(partial, path, error);
-    if (!error) return exported;
+    const absl::Status moved = MoveInto(partial, *whole);
+    return moved.ok() ? exported : moved;
   }
   std::error_code ignored;
   std::filesystem::remove(partial, ignored);

@@ -85,13 +85,21 @@ absl::Status SendAll(const FrameSource& source, FrameRange range, const Flags& f
 }
 
 // Says when the connection is lost and when it is back.
-ReconnectOptions Reconnect(const Flags& flags, std::function<void(const std::string&)> note) {
+ReconnectOptions Reconnect(const Flags& flags, AckTally& tally,
+                           std::function<void(const std::string&)> note) {
   ReconnectOptions reconnect;
   reconnect.give_up_after = FromSeconds(flags.reconnect_for_s);
-  reconnect.on_change = [address = flags.server.address, note](const StreamState& state) {
+  reconnect.on_change = [address = flags.server.address, &tally, note,
+                         restarts = std::uint64_t{0}](const StreamState& state) mutable {
     if (!state.connected) {
       note(absl::StrCat("note: the connection to ", address, " is lost (",
                         std::string(state.last_error.message()), "); trying again"));
+    } else if (state.server_restarts > restarts) {
+      restarts = state.server_restarts;
+      tally.ServerRestarted();
+      note(
+          absl::StrCat("warning: connected to ", address,
+                       " again, but the server restarted: the scene of the frames so far is gone"));
     } else if (state.reconnects > 0) {
       note(absl::StrCat("note: connected to ", address,
                         " again; frames without an answer are sent again"));
@@ -107,6 +115,7 @@ Json AsJson(const AckTally::Counts& counts, const FrameSource& source, std::uint
                {"refused", counts.refused},
                {"repeated", counts.repeated},
                {"reconnects", reconnects},
+               {"lost", counts.lost},
                {"late", counts.late},
                {"points", counts.points},
                {"version", counts.last.version},
@@ -193,7 +202,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   FrameSender sender(*connection,
                      {.sensor_run = flags.sensor_run, .allow_stamp_jump = flags.allow_stamp_jump});
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
-  absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, note));
+  absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, tally, note));
   if (!status.ok()) return status;
   status = SendAll(*source, *range, flags, sender, tally, progress);
   const std::uint64_t reconnects = sender.state().reconnects;
@@ -214,6 +223,11 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     return InContext(absl::StrCat("frame ", counts.first_refused_sequence, " of ",
                                   counts.first_refused_sensor, " was refused"),
                      counts.first_refusal);
+  }
+  if (counts.lost > 0) {
+    return absl::DataLossError(absl::StrCat("the server restarted: its scene lacks the first ",
+                                            Plural(counts.lost, "frame"),
+                                            "; 'clearway reset', then replay again"));
   }
   return absl::OkStatus();
 }

@@ -145,9 +145,11 @@ absl::Status CheckPage(const std::string& html_file) {
   if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) {
     return refused(": there is no such folder");
   }
-  if (!std::filesystem::exists(path, ignored)) return absl::OkStatus();
-  if (std::filesystem::is_directory(path, ignored)) return refused(": is a folder; name a file");
-  if (!std::filesystem::is_regular_file(path, ignored)) return refused(": is no regular file");
+  const auto file = OutputFile(path);
+  if (!file.ok()) {
+    return absl::FailedPreconditionError(absl::StrCat("--html: ", file.status().message()));
+  }
+  if (!std::filesystem::exists(*file, ignored)) return absl::OkStatus();
   const absl::StatusOr<std::string> begin = ReadFileStart(path, kBegin.size());
   if (begin.ok() && *begin == kBegin) return absl::OkStatus();
   return refused(" exists and is no page; name another file");
@@ -155,20 +157,14 @@ absl::Status CheckPage(const std::string& html_file) {
 
 absl::Status WriteHtml(const std::string& html_file, const TrueSource& source,
                        const Evaluation& found) {
-  std::error_code error, ignored;
-  const auto failed = [&] {
-    return absl::InternalError(absl::StrCat(html_file, ": ", error.message()));
-  };
-  const std::filesystem::path file = std::filesystem::weakly_canonical(html_file, error);
-  if (error) return failed();  // a link in a circle
-  const std::string partial = file.string() + ".partial";
+  const auto file = OutputFile(html_file);
+  if (!file.ok()) return file.status();
+  const std::string partial = file->string() + ".partial";
   const absl::Status written = WritePage(partial, source, found);
-  if (written.ok()) std::filesystem::rename(partial, file, error);
-  if (written.ok() && !error) return written;
-  if (std::filesystem::is_regular_file(partial, ignored)) {
-    std::filesystem::remove(partial, ignored);
-  }
-  return written.ok() ? failed() : written;
+  if (written.ok()) return MoveInto(partial, *file);
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);
+  return written;
 }
 
 }  // namespace clearway::cli

@@ -16,6 +16,10 @@ const char* NameOf(ObjectIssueKind kind) {
       return "MOTION_TOO_FAR";
     case ObjectIssueKind::kMotionConflict:
       return "MOTION_CONFLICT";
+    case ObjectIssueKind::kMotionTooFast:
+      return "MOTION_TOO_FAST";
+    case ObjectIssueKind::kContradicted:
+      return "CONTRADICTED";
     case ObjectIssueKind::kRestarted:
       return "RESTARTED";
     case ObjectIssueKind::kBridgedTooLong:
@@ -37,6 +41,12 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
     case ObjectIssueKind::kMotionConflict:
       return absl::StrCat("motion left out at ", when,
                           ": the object has another one under another id");
+    case ObjectIssueKind::kMotionTooFast:
+      return absl::StrCat("motion or pose left out at ", when, ": moves at ", value, " m/s (limit ",
+                          limit, " m/s)");
+    case ObjectIssueKind::kContradicted:
+      return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
+                          " m from its points (limit ", limit, " m)");
     case ObjectIssueKind::kRestarted:
       return absl::StrCat("model restarted at ", when, ": points ", value,
                           " m from the prediction (bound ", limit, " m)");

@@ -13,6 +13,7 @@
 #include "clearway/io/kitti_tracking.h"
 #include "clearway/io/recording.h"
 #include "clearway/io/tum_rgbd.h"
+#include "clearway/io/within_scene.h"
 #include "clearway/sim/scenarios.h"
 
 namespace clearway::cli {
@@ -150,6 +151,7 @@ absl::StatusOr<LidarFolder> OpenFolder(const std::string& path, const SourceFlag
   if (auto status = CheckSourceFlags(flags, path, format); !status.ok()) return status;
   auto folder = OpenFormat(format, path, flags, allow_missing_points);
   if (folder.ok()) folder = WithOrigin(*std::move(folder), flags.origin);
+  if (folder.ok()) folder = WithinScene(*std::move(folder));
   if (!folder.ok()) return folder;
   SourceContent content;
   for (const RecordedBox& box : folder->boxes) content.objects.insert(box.id);

@@ -33,7 +33,8 @@ TrueSource OfFolder(LidarFolder folder) {
 absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlags& flags) {
   auto frames = OpenSource(spec, flags);
   if (!frames.ok()) return frames.status();
-  LidarFolder told{*std::move(frames), {}, {}};
+  LidarFolder told;
+  told.frames = *std::move(frames);
   SourceContent content;
   for (std::size_t k = 0; k < told.frames.frame_count; ++k) {
     const auto frame = told.frames.read(k);

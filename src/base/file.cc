@@ -50,9 +50,17 @@ absl::Status OpenError(const std::filesystem::path& path, int error) {
 // What to call an entry of the file system that is no regular file.
 const char* KindOf(mode_t mode) {
   if (S_ISDIR(mode)) return "is a folder";
+  if (S_ISLNK(mode)) return "is a symbolic link, not a file";
   if (S_ISFIFO(mode)) return "is a pipe, not a file";
   if (S_ISCHR(mode) || S_ISBLK(mode)) return "is a device, not a file";
   return "is not a file";
+}
+
+// OK if nothing is there or a regular file, which a new one may replace.
+absl::Status CheckReplaceable(const std::filesystem::path& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(path.string(), ": ", KindOf(status.st_mode)));
 }
 
 struct OpenFile {
@@ -146,8 +154,32 @@ absl::StatusOr<std::string> ReadTextFile(const std::filesystem::path& path,
   return bytes;
 }
 
+absl::StatusOr<std::filesystem::path> OutputFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::weakly_canonical(path, error);
+  if (error) return OpenError(path, error.value());
+  for (const std::string& name : {file.string(), file.string() + ".partial"}) {
+    if (auto status = CheckReplaceable(name); !status.ok()) return status;
+  }
+  return file;
+}
+
+absl::Status MoveInto(const std::filesystem::path& partial, const std::filesystem::path& path) {
+  absl::Status status = CheckReplaceable(path);
+  std::error_code error;
+  if (status.ok()) {
+    std::filesystem::rename(partial, path, error);
+    if (!error) return status;
+    status = absl::UnavailableError(absl::StrCat(path.string(), ": ", error.message()));
+  }
+  std::filesystem::remove(partial, error);
+  return status;
+}
+
 absl::Status WriteWholeFile(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path partial = path.string() + ".partial";
+  const auto file = OutputFile(path);
+  if (!file.ok()) return file.status();
+  const std::filesystem::path partial = file->string() + ".partial";
   {
     std::ofstream out(partial, std::ios::binary | std::ios::trunc);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -159,14 +191,7 @@ absl::Status WriteWholeFile(const std::filesystem::path& path, std::string_view 
           absl::StrCat(path.string(), ": cannot be written (no such folder, or disk full?)"));
     }
   }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    return absl::UnavailableError(absl::StrCat(path.string(), ": ", error.message()));
-  }
-  return absl::OkStatus();
+  return MoveInto(partial, *file);
 }
 
 }  // namespace clearway

@@ -7,6 +7,17 @@
 #include "wire/status.h"
 
 namespace clearway {
+namespace {
+
+// Which start of the server answers; none if there is no server.
+std::optional<std::string> InstanceOf(const grpc::ClientContext& context) {
+  const auto& metadata = context.GetServerInitialMetadata();
+  const auto found = metadata.find("clearway-server-instance");
+  if (found == metadata.end()) return std::nullopt;
+  return std::string(found->second.data(), found->second.size());
+}
+
+}  // namespace
 
 PushStream::PushStream(v1::IngestService::Stub& stub, Options options)
     : stub_(stub),
@@ -88,8 +99,8 @@ absl::Status PushStream::RunOnce() {
   }
   const auto stream = stub_.PushFrames(&context);
   std::thread writer([&] { WriteFrames(*stream); });
-  stream->WaitForInitialMetadata();  // that of a server has its instance; without one it is empty
-  if (!context.GetServerInitialMetadata().empty()) reconnector_.Connected();
+  stream->WaitForInitialMetadata();
+  if (const auto instance = InstanceOf(context)) reconnector_.Connected(*instance);
   const absl::Status refused = ReadAnswers(*stream);
   {
     std::lock_guard lock(mutex_);
@@ -115,7 +126,6 @@ absl::Status PushStream::RunOnce() {
 absl::Status PushStream::ReadAnswers(Stream& stream) {
   v1::PushFramesResponse response;
   while (stream.Read(&response)) {
-    reconnector_.Connected();
     if (response.has_error()) {
       absl::Status error = FromProto(response.error());
       if (absl::IsUnavailable(error)) return error;

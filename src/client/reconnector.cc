@@ -7,13 +7,17 @@ namespace clearway {
 Reconnector::Reconnector(ReconnectOptions options)
     : options_(std::move(options)), pause_(options_.first_pause) {}
 
-void Reconnector::Connected() {
+void Reconnector::Connected(const std::string& instance) {
   StreamState state;
   {
     std::lock_guard lock(mutex_);
     if (state_.connected) return;
     state_.connected = true;
     if (!state_.last_error.ok()) ++state_.reconnects;
+    if (!instance.empty()) {
+      if (!instance_.empty() && instance != instance_) ++state_.server_restarts;
+      instance_ = instance;
+    }
     state = state_;
   }
   connected_since_ = Clock::now();

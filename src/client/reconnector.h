@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "clearway/client/stream_state.h"
 
@@ -16,8 +17,9 @@ class Reconnector {
  public:
   explicit Reconnector(ReconnectOptions options);
 
-  // The server has answered. Repeated calls change nothing.
-  void Connected();
+  // The server has answered; `instance` tells its starts apart, if it is known. Repeated calls
+  // change nothing.
+  void Connected(const std::string& instance = "");
   // The stream is broken, or opening it failed. Returns how long to wait before the next attempt;
   // nothing when it is time to give up.
   std::optional<Duration> Lost(const absl::Status& error);
@@ -37,6 +39,7 @@ class Reconnector {
 
   mutable std::mutex mutex_;
   StreamState state_;
+  std::string instance_;  // that answered last
 };
 
 }  // namespace clearway

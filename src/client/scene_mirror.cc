@@ -114,7 +114,7 @@ struct SceneMirror::Impl {
       confirmed = Clock::now();
       connected = true;
     }
-    reconnector.Connected();
+    reconnector.Connected(instance);
     changed.notify_all();
   }
 
@@ -126,7 +126,7 @@ struct SceneMirror::Impl {
       confirmed = Clock::now();
       connected = true;
     }
-    reconnector.Connected();
+    reconnector.Connected(instance);
     changed.notify_all();
   }
 

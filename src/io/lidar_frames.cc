@@ -144,6 +144,9 @@ absl::StatusOr<LidarFolder> FramesOf(LidarScans scans) {
   LidarFolder result;
   result.poses = scans.poses;
   result.boxes = scans.boxes;
+  result.first_pose = static_cast<std::size_t>(
+      std::ranges::lower_bound(result.poses, options.first_frame, {}, &RecordedPose::frame) -
+      result.poses.begin());
   const auto open = std::make_shared<OpenScans>();
   open->poses = InRange(scans.poses, options);
   open->boxes = InRange(scans.boxes, options);

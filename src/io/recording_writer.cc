@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
 #include "clearway/io/recording.h"
 #include "io/recording_codec.h"
@@ -138,13 +139,15 @@ absl::StatusOr<std::unique_ptr<RecordingWriter>> RecordingWriter::Create(
     const Path& path, const RecordingOptions& options) {
   absl::Status status = CheckOptions(options);
   if (!status.ok()) return status;
+  const absl::StatusOr<Path> file = OutputFile(path);
+  if (!file.ok()) return file.status();
   std::error_code error;
-  if (!options.overwrite && std::filesystem::exists(path, error)) {
+  if (!options.overwrite && std::filesystem::exists(*file, error)) {
     return absl::AlreadyExistsError(absl::StrCat(path.string(), ": is there already"));
   }
   auto impl = std::make_unique<Impl>();
-  impl->path = path;
-  impl->partial = path.string() + ".partial";
+  impl->path = *file;
+  impl->partial = file->string() + ".partial";
   impl->options = options;
   status = impl->Start();
   std::unique_ptr<RecordingWriter> writer(new RecordingWriter(std::move(impl)));
@@ -176,9 +179,8 @@ absl::Status RecordingWriter::Close() {
   if (!status.ok()) return impl.Keep(status);
   impl.insert.reset();
   impl.database.reset();
-  std::error_code error;
-  std::filesystem::rename(impl.partial, impl.path, error);
-  return error ? impl.Keep(absl::UnavailableError(error.message())) : absl::OkStatus();
+  impl.broken = MoveInto(impl.partial, impl.path);
+  return impl.broken;
 }
 
 }  // namespace clearway

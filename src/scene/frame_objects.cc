@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "scene/contradicted_placement.h"
 #include "scene/dropped_object.h"
 #include "scene/implausible_motions.h"
 #include "scene/late_frame.h"
@@ -91,8 +92,9 @@ ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Ti
                      const SceneParams& params, const FrameLimits& limits, ClueMap& clues,
                      VoxelMap& static_map_W, FrameReport& report) {
   const SceneObjects named = WithoutLapsedIds(objects, clues, stamp, params);
-  LeaveOutImplausible(named, stamp, params, limits, clues, report);
+  LeaveOutImplausible(named, cloud, stamp, params, limits, clues, report);
   const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues, report);
+  LeaveOutContradicted(named, cloud, stamp, params, clues, report);
   const std::map<ObjectId, Sighting> sightings = SightingsOf(named, clues, stamp, params);
   ObjectMap continuing;
   for (const auto& object : named) {

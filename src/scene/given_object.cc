@@ -88,10 +88,10 @@ std::size_t TriangleCount(const Shape& shape) {
 
 absl::Status CheckVelocity(const Twist& velocity_O) {
   const double linear_mps = velocity_O.linear.norm(), spin_radps = velocity_O.angular.norm();
-  if (!(linear_mps <= kMaxGivenSpeed_mps)) {  // so that it fails for NaN
+  if (!(linear_mps <= kMaxSpeed_mps)) {  // so that it fails for NaN
     return Invalid("velocity_object.linear_mps",
                    absl::StrCat("is of length ", NumberText(linear_mps), "; the limit is ",
-                                NumberText(kMaxGivenSpeed_mps)));
+                                NumberText(kMaxSpeed_mps)));
   }
   if (!(spin_radps <= kMaxGivenSpin_radps)) {
     return Invalid("velocity_object.angular_radps",

@@ -8,46 +8,82 @@
 namespace clearway {
 namespace {
 
-// What is wrong with the motion of an object; `known` is null if the scene does not have it.
-std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const MovingObject* known,
+// Whether a position moves faster than anything; stamps may be off by a millisecond.
+std::optional<ObjectIssue> TooFast(ObjectId id, const Eigen::Vector3d& from_W,
+                                   const Eigen::Vector3d& to_W, Duration within) {
+  constexpr double kClockError_s = 1e-3;
+  const double speed_mps = (to_W - from_W).norm() / (ToSeconds(within) + kClockError_s);
+  if (speed_mps <= kMaxSpeed_mps) return std::nullopt;
+  return ObjectIssue{ObjectIssueKind::kMotionTooFast, id, speed_mps, kMaxSpeed_mps};
+}
+
+// What is wrong with the motion of an object that the scene knows.
+std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const MovingObject& known,
                                    Time stamp, const SceneParams& params,
                                    const FrameLimits& limits) {
-  const double limit_m = limits.max_coordinate_m;
+  const Pose T_W_from = StartOf(motion, known, stamp, params);
+  const Pose T_W_to = motion.H_W * T_W_from;
+  if (const double reach_m = LargestCoordinate(T_W_to); reach_m > limits.max_coordinate_m) {
+    return ObjectIssue{ObjectIssueKind::kMotionTooFar, motion.id, reach_m, limits.max_coordinate_m};
+  }
+  return TooFast(motion.id, T_W_from.translation, T_W_to.translation, stamp - motion.from);
+}
+
+// What is wrong with a motion, whatever it moves.
+std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const FrameLimits& limits) {
   const double carried_m = LargestCoordinate(motion.H_W);
-  if (carried_m > 2 * limit_m) {
-    return ObjectIssue{ObjectIssueKind::kMotionTooFar, motion.id, carried_m, limit_m};
+  if (carried_m > 2 * limits.max_coordinate_m) {
+    return ObjectIssue{ObjectIssueKind::kMotionTooFar, motion.id, carried_m,
+                       limits.max_coordinate_m};
   }
-  if (const double turn_rad = Log(motion.H_W).angular.norm(); turn_rad > kMaxTurn_rad) {
-    return ObjectIssue{ObjectIssueKind::kTurnTooLarge, motion.id, turn_rad, kMaxTurn_rad};
+  const double turn_rad = Log(motion.H_W).angular.norm();
+  if (turn_rad <= kMaxTurn_rad) return std::nullopt;
+  return ObjectIssue{ObjectIssueKind::kTurnTooLarge, motion.id, turn_rad, kMaxTurn_rad};
+}
+
+std::optional<ObjectIssue> IssueOf(const ObjectPose& pose, const MovingObject& known, Time stamp) {
+  if (known.given() || !known.T_B_O) return std::nullopt;
+  const StampedPose& last = known.history.back();
+  const Pose T_W_O = pose.T_W_B * *known.T_B_O;
+  return TooFast(pose.id, last.T_W_O.translation, T_W_O.translation,
+                 std::chrono::abs(stamp - last.stamp));
+}
+
+// `known` is null if the scene does not have the object.
+std::optional<ObjectIssue> IssueOf(const ObjectClue& clue, const MovingObject* known,
+                                   const LabelledCloud& cloud, Time stamp,
+                                   const SceneParams& params, const FrameLimits& limits) {
+  if (clue.motion == nullptr) {
+    return clue.pose && known ? IssueOf(*clue.pose, *known, stamp) : std::nullopt;
   }
-  if (known == nullptr) return std::nullopt;
-  const Pose T_W_from = StartOf(motion, *known, stamp, params);
-  const double reach_m = LargestCoordinate(motion.H_W * T_W_from);
-  if (reach_m <= limit_m) return std::nullopt;
-  return ObjectIssue{ObjectIssueKind::kMotionTooFar, motion.id, reach_m, limit_m};
+  const ObjectMotion& motion = *clue.motion;
+  if (const auto issue = IssueOf(motion, limits)) return issue;
+  if (known != nullptr) return IssueOf(motion, *known, stamp, params, limits);
+  if (clue.points.empty()) return std::nullopt;
+  const Eigen::Vector3d p_W = cloud.ends_W[clue.points.front()].cast<double>();
+  return TooFast(motion.id, Inverse(motion.H_W) * p_W, p_W, stamp - motion.from);
 }
 
 }  // namespace
 
 double LargestCoordinate(const Pose& pose) { return pose.translation.cwiseAbs().maxCoeff(); }
 
-void LeaveOutImplausible(const SceneObjects& objects, Time stamp, const SceneParams& params,
-                         const FrameLimits& limits, ClueMap& clues, FrameReport& report) {
+void LeaveOutImplausible(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
+                         const SceneParams& params, const FrameLimits& limits, ClueMap& clues,
+                         FrameReport& report) {
   std::map<ObjectId, const MovingObject*> by_name;
   for (const auto& object : objects) {
     for (const ObjectId name : object->Ids()) by_name[name] = object.get();
   }
   for (auto clue = clues.begin(); clue != clues.end();) {
     ObjectClue& of_object = clue->second;
-    if (of_object.motion != nullptr) {
-      const auto known = by_name.find(clue->first);
-      const auto issue =
-          IssueOf(*of_object.motion, known == by_name.end() ? nullptr : known->second, stamp,
-                  params, limits);
-      if (issue) {
-        AddIssue(*issue, report);
-        of_object.motion = nullptr;
-      }
+    const auto known = by_name.find(clue->first);
+    const auto issue = IssueOf(of_object, known == by_name.end() ? nullptr : known->second, cloud,
+                               stamp, params, limits);
+    if (issue) {
+      AddIssue(*issue, report);
+      of_object.motion = nullptr;
+      of_object.pose = nullptr;
     }
     clue = of_object.Places() || !of_object.points.empty() ? std::next(clue) : clues.erase(clue);
   }

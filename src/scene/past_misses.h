@@ -32,7 +32,7 @@ struct PastMisses {
   // Of predictions made every tenth of a second of the last second, for less than half a second
   // ahead: known early, and quick to show that poses became noisy.
   std::vector<Misses> soon;
-  // Noise of the poses over the last 1.2 s: squared distances between a pose and the straight line
+  // Noise of the poses over the last 1.45 s: squared distances between a pose and the straight line
   // through its neighbours.
   double jitter_m2 = 0;
   int jitter_count = 0;

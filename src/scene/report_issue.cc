@@ -6,6 +6,8 @@ void AddIssue(const ObjectIssue& issue, FrameReport& report) {
   switch (issue.kind) {
     case ObjectIssueKind::kTurnTooLarge:
     case ObjectIssueKind::kMotionTooFar:
+    case ObjectIssueKind::kMotionTooFast:
+    case ObjectIssueKind::kContradicted:
       ++report.motions_implausible;
       break;
     case ObjectIssueKind::kMotionConflict:

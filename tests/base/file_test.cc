@@ -128,6 +128,49 @@ TEST(File, WritesWholeFilesOnly) {
   ASSERT_TRUE(WriteWholeFile(folder / "a", "new").ok());
   EXPECT_EQ(*ReadWholeFile(folder / "a", kLimit), "new");
   EXPECT_TRUE(absl::IsUnavailable(WriteWholeFile(folder / "none/a", "new")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.partial"));
+}
+
+TEST(File, ReplacesFilesOnly) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder / "b.partial").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder / "pipe", folder / "to_pipe");
+  std::filesystem::create_symlink(folder / "none", folder / "nowhere");
+  const struct {
+    const char* name;
+    const char* why;
+  } cases[] = {{"", ": is a folder"},
+               {"pipe", "pipe: is a pipe, not a file"},
+               {"to_pipe", "pipe: is a pipe, not a file"},
+               {"nowhere", "nowhere: is a symbolic link, not a file"},
+               {"b", "b.partial: is a pipe, not a file"}};
+  for (const auto& [name, why] : cases) {
+    const absl::Status status = WriteWholeFile(folder / name, "new");
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << name << ": " << status;
+    EXPECT_THAT(std::string(status.message()), HasSubstr(why));
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "nowhere"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST(File, WritesThroughALink) {
+  const TemporaryFolder folder;
+  folder.Write("far/a", "old");
+  std::filesystem::create_symlink(folder / "far/a", folder / "link");
+  ASSERT_TRUE(WriteWholeFile(folder / "link", "new").ok());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(*ReadWholeFile(folder / "far/a", kLimit), "new");
+}
+
+TEST(File, MovesNothingOntoAPipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const auto partial = folder.Write("a.partial", "new");
+  EXPECT_TRUE(absl::IsInvalidArgument(MoveInto(partial, folder / "pipe")));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_FALSE(std::filesystem::exists(partial));
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ TEST_F(ReconnectTest, AMirrorFollowsARestartedServer) {
   Start(address);
   ASSERT_TRUE(Eventually([&] { return dut->state().connected; }));
   EXPECT_EQ(dut->state().reconnects, 1u);
+  EXPECT_EQ(dut->state().server_restarts, 1u);
   EXPECT_EQ(dut->Latest()->Hash(), server_->Newest()->Hash());
   EXPECT_EQ(dut->Latest()->version, 1u);
   EXPECT_EQ(dut->stats().full_syncs, 2u);
@@ -158,6 +159,7 @@ TEST_F(ReconnectTest, AMirrorGoesOnFromItsVersionWhenOnlyTheConnectionBroke) {
   ASSERT_TRUE(dut->WaitFor(3, kPatience).ok());
   EXPECT_EQ(dut->Latest()->Hash(), server_->Newest()->Hash());
   EXPECT_EQ(dut->stats().full_syncs, 1u);
+  EXPECT_EQ(dut->state().server_restarts, 0u);
 }
 
 TEST_F(ReconnectTest, AStaleMirrorIsRefusedWhereFreshnessIsAskedFor) {

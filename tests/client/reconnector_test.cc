@@ -58,6 +58,16 @@ TEST(Reconnector, ReportsChangesOnly) {
   EXPECT_EQ(dut.state().last_error, kLost);
 }
 
+TEST(Reconnector, CountsStartsOfTheServer) {
+  Reconnector dut({});
+  for (const char* const instance : {"a", "a", "", "a", "b", "", "b", "c"}) {
+    dut.Connected(instance);
+    (void)dut.Lost(kLost);
+  }
+  EXPECT_EQ(dut.state().reconnects, 7u);
+  EXPECT_EQ(dut.state().server_restarts, 2u);
+}
+
 TEST(Reconnector, GivesUp) {
   Reconnector dut({.first_pause = seconds(1), .give_up_after = milliseconds(500)});
   EXPECT_FALSE(dut.Lost(kLost).has_value());

@@ -2,6 +2,7 @@
 #include "clients/cli_server.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -166,6 +167,32 @@ TEST_F(CliServer, ExportOfAnUnknownObjectLeavesNoFile) {
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("99"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_F(CliServer, ExportAndRecordReplaceFilesOnly) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "map.bt", frames = folder / "pipe.cwr",
+                    link = folder / "link.bt", far = folder / "far.bt";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(frames.c_str(), 0600), 0);
+  const std::string why = " is a pipe, not a file";
+  EXPECT_THAT(Clearway({"export", "--out", pipe}).err, HasSubstr(pipe + ":" + why));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"record", "sim:small"}, {"simulate", "small"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--frames", "2", "--force", "--out", frames});
+    const Finished dut = RunClearway(arguments);
+    EXPECT_EQ(dut.exit_code, 1) << command[0];
+    EXPECT_THAT(dut.err, HasSubstr(frames + ":" + why));
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(std::filesystem::is_fifo(frames));
+
+  folder.Write("far.bt", "old");
+  std::filesystem::create_symlink(far, link);
+  EXPECT_GT(Ask({"export", "--out", link})["bytes"], 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_THAT(BytesOf(far), HasSubstr("Octomap"));
 }
 
 TEST_F(CliServer, APriorComesBack) {

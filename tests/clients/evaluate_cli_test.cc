@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "clients/run_clearway.h"
+#include "io/recording_example.h"
+#include "support/frames.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -150,8 +152,8 @@ TEST(Evaluate, ReplacesNothingButAPage) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {other, "exists and is no page; name another file"},
       {folder / "missing/small.html", "missing/small.html: there is no such folder"},
-      {folder.path(), "is a folder; name a file"},
-      {"/dev/null", "is no regular file"},
+      {folder.path(), ": is a folder"},
+      {"/dev/null", "--html: /dev/null: is a device, not a file"},
       {page, ""},
       {folder / "link.html", ""}};
   for (const auto& [file, why] : cases) {
@@ -162,6 +164,25 @@ TEST(Evaluate, ReplacesNothingButAPage) {
   EXPECT_EQ(BytesOf(other), "somebody's own");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.html"));
   EXPECT_THAT(BytesOf(page), HasSubstr("</html>"));
+}
+
+TEST(Evaluate, AcrossAGapOfADay) {
+  const TemporaryFolder folder;
+  std::vector<Frame> frames;
+  for (const double seconds : {1.0, 1.1, 86'401.0, 86'401.1}) {
+    Frame frame = testing_support::FrameAt(seconds);
+    testing_support::AddObject(frame, 1, Pose::Translation(5, 0, 1),
+                               testing_support::BoxSurface({1, 1, 1}, 0.2));
+    frame.poses.push_back({1, Pose::Translation(5, 0, 1)});
+    frames.push_back(frame);
+  }
+  WriteFrames(folder / "gap.cwr", frames);
+  const std::string file = folder / "gap.cwr";
+  const Finished refused = RunClearway({"evaluate", file});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("allow_stamp_jump"));
+  const Finished dut = RunClearway({"evaluate", file, "--allow-stamp-jump", "--json"});
+  EXPECT_EQ(dut.exit_code, 0) << dut.err;
 }
 
 // Whose rays are 1.4 degrees apart.

@@ -5,11 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "clients/cli_server.h"
 #include "io/lidar_example.h"
 #include "io/recording_example.h"
+#include "support/eventually.h"
 
 namespace clearway {
 namespace {
@@ -18,6 +21,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
+using testing_support::Eventually;
 
 TEST_F(CliServer, ReplayOfOneRunIsAppliedOnce) {
   const std::vector<std::string> replay = {"replay",  "sim:small",    "--frames", "8",
@@ -102,6 +106,28 @@ TEST_F(CliServer, ReplayOfAClockThatJumps) {
   EXPECT_THAT(refused.err, HasSubstr("allow_stamp_jump"));
   Ask({"reset"});
   EXPECT_EQ(Ask({"replay", file, "--quiet", "--allow-stamp-jump"})["applied"], 3);
+}
+
+TEST_F(CliServer, ReplayAcrossARestartOfTheServerSaysWhatIsLost) {
+  const std::string address = server_->address();
+  Finished dut;
+  std::thread replay([&] {
+    dut = Clearway({"replay", "sim:small", "--frames", "20", "--rate", "0.5", "--json"});
+  });
+  EXPECT_TRUE(Eventually([&] { return Ask({"status"})["frames_applied"] >= 3; }));
+  server_.reset();
+  server_ = std::make_unique<ServerProcess>(std::vector<std::string>{}, address);
+  replay.join();
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("warning: connected to " + address + " again, but the server"));
+  const json summary = json::parse(dut.out);
+  const std::size_t lost = summary["lost"];
+  EXPECT_GE(lost, 3u);
+  EXPECT_THAT(dut.err, HasSubstr(absl::StrCat("lacks the first ", lost, " frames")));
+  EXPECT_EQ(summary["applied"], 20);
+  const json status = Ask({"status"});
+  EXPECT_EQ(status["frames_applied"], 20 - lost);
+  EXPECT_EQ(status["version"], summary["version"]);
 }
 
 TEST_F(CliServer, ReplayShowsItsProgress) {

@@ -9,7 +9,7 @@
 
 namespace clearway {
 
-ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
+ServerProcess::ServerProcess(const std::vector<std::string>& flags, const std::string& listen) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return;
   pid_ = fork();
@@ -17,8 +17,8 @@ ServerProcess::ServerProcess(const std::vector<std::string>& flags) {
     dup2(ends[1], STDOUT_FILENO);
     close(ends[0]);
     close(ends[1]);
-    std::vector<std::string> arguments = {CLEARWAY_SERVER_BINARY, "--listen", "127.0.0.1:0",
-                                          "--log-level", "warning"};
+    std::vector<std::string> arguments = {CLEARWAY_SERVER_BINARY, "--listen", listen, "--log-level",
+                                          "warning"};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     Exec(arguments);
   }

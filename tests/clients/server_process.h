@@ -11,7 +11,8 @@ namespace clearway {
 // clearway-server on a free port of loopback until the object is destroyed.
 class ServerProcess {
  public:
-  explicit ServerProcess(const std::vector<std::string>& flags = {});
+  explicit ServerProcess(const std::vector<std::string>& flags = {},
+                         const std::string& listen = "127.0.0.1:0");
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;
   ServerProcess& operator=(const ServerProcess&) = delete;

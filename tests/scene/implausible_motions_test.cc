@@ -99,6 +99,54 @@ TEST_F(ImplausibleMotions, OfANewObjectTheFirstVelocityIsNotKnown) {
   EXPECT_FALSE(dut_.Publish()->FindObject(2)->velocity_O.has_value());
 }
 
+class TooFastMotions : public ImplausibleMotions {
+ protected:
+  void ExpectTooFast(const FrameReport& report, double speed_mps) {
+    EXPECT_EQ(report.motions_implausible, 1u);
+    ASSERT_EQ(report.issues.size(), 1u);
+    EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kMotionTooFast);
+    EXPECT_EQ(report.issues[0].id, 2);
+    EXPECT_NEAR(report.issues[0].value, speed_mps, 0.02 * speed_mps);
+    EXPECT_EQ(report.issues[0].limit, kMaxSpeed_mps);
+  }
+  SceneBuilder far_{SceneParams{}, FrameLimits{}, pool_};
+};
+
+TEST_F(TooFastMotions, AreLeftOutAndNamed) {
+  ASSERT_TRUE(far_.Apply(Showing(0, 9)).ok());
+  Frame frame = FrameAt(0.1);
+  frame.motions.push_back({2, Pose::Translation(0, 10'000, 0), At(0)});
+  ExpectTooFast(*far_.Apply(frame), 100'000);
+  EXPECT_EQ(far_.Publish()->FindObject(2)->t_k(), At(0));
+  frame = FrameAt(0.2);
+  frame.motions.push_back({2, Pose::Translation(0, 190, 0), At(0)});
+  EXPECT_TRUE(far_.Apply(frame)->issues.empty());
+}
+
+TEST_F(TooFastMotions, OfANewObject) {
+  Frame frame = Showing(0.1, 10);
+  frame.motions.push_back({2, Pose::Translation(0, 10'000, 0), At(0)});
+  ExpectTooFast(*far_.Apply(frame), 100'000);
+  EXPECT_FALSE(far_.Publish()->FindObject(2)->velocity_O.has_value());
+}
+
+// The next pose counts again, or the same one once there was time to get there.
+TEST_F(TooFastMotions, OfPoses) {
+  const auto at = [&](double seconds, double x_m) {
+    Frame frame = FrameAt(seconds);
+    frame.poses.push_back({2, Pose::Translation(x_m, 3, 1)});
+    return *far_.Apply(frame);
+  };
+  Frame first = Showing(0, 9);
+  first.poses.push_back({2, Pose::Translation(9, 3, 1)});
+  ASSERT_TRUE(far_.Apply(first).ok());
+  ExpectTooFast(at(0.1, 509), 5'000);
+  EXPECT_EQ(far_.Publish()->FindObject(2)->t_k(), At(0));
+  EXPECT_TRUE(at(0.2, 9).issues.empty());
+  ExpectTooFast(at(0.3, 509), 5'000);
+  EXPECT_TRUE(at(0.8, 509).issues.empty());
+}
+
 TEST_F(ImplausibleMotions, TheListIsBounded) {
   Frame frame = FrameAt(0);
   for (ObjectId id = 1; id <= 100; ++id) frame.motions.push_back({id, Turn(3), At(-1)});

@@ -28,7 +28,17 @@ absl::StatusOr<std::string> ReadTextFile(const std::filesystem::path& path,
 absl::StatusOr<std::string_view> WithoutByteOrderMark(const std::string& name,
                                                       std::string_view text);
 
-// Replaces the file at once: readers see the old bytes or the new ones, never a part.
+// The file to write when a user names `path`: links are followed. It is a regular file or not there
+// yet, and so is "<it>.partial", the name under which it grows. INVALID_ARGUMENT names what else is
+// there: a folder, pipe, socket, device or a link that leads nowhere.
+absl::StatusOr<std::filesystem::path> OutputFile(const std::filesystem::path& path);
+
+// Gives a finished file its name, in the place of one that has it; `path` is from OutputFile and is
+// checked again. If that fails, the partial file is removed; UNAVAILABLE if it cannot be moved.
+absl::Status MoveInto(const std::filesystem::path& partial, const std::filesystem::path& path);
+
+// Replaces the file at once: readers see the old bytes or the new ones, never a part. Errors as
+// above.
 absl::Status WriteWholeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace clearway

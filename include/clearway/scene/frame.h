@@ -73,6 +73,9 @@ struct Frame {
 // The direction of a larger turn is ambiguous: a motion that turns by more is left out
 // (ObjectIssueKind::kTurnTooLarge).
 inline constexpr double kMaxTurn_rad = 0.9 * std::numbers::pi;
+// Nothing that Clearway maps is faster: a motion or pose that says so is left out
+// (ObjectIssueKind::kMotionTooFast).
+inline constexpr double kMaxSpeed_mps = 1'000;
 
 // Bounds on what a frame may hold, and the scene after it.
 struct FrameLimits {

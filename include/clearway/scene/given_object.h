@@ -28,6 +28,6 @@ struct ObjectFuture {
 
 inline constexpr std::size_t kMaxFuturePoses = 10'000;
 inline constexpr std::size_t kMaxGivenTriangles = 2'000;  // of a mesh
-inline constexpr double kMaxGivenSpeed_mps = 1'000, kMaxGivenSpin_radps = 100;
+inline constexpr double kMaxGivenSpin_radps = 100;
 
 }  // namespace clearway

@@ -30,8 +30,9 @@ struct FrameReport {
   std::size_t points_self = 0;  // on the robot's own body
   std::size_t points_out_of_bounds = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
-  // Left out as if the frame did not have them: implausible ones (kTurnTooLarge, kMotionTooFar),
-  // and motions and poses besides another one of the same object (kMotionConflict).
+  // Motions and poses left out as if the frame did not have them: implausible ones (kTurnTooLarge,
+  // kMotionTooFar, kMotionTooFast, kContradicted), and those besides another one of the same object
+  // (kMotionConflict).
   std::size_t motions_implausible = 0;
   std::size_t motions_conflicting = 0;
   std::size_t objects_created = 0;

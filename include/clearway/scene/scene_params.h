@@ -30,7 +30,7 @@ enum class MotionModel {
 };
 
 // For which objects a motion is estimated when a frame gives points of them, but neither a motion
-// nor a pose: the points are registered to the object's own map.
+// nor a pose: the points are registered to the object's own map. z of W must point up.
 enum class MotionFromPoints {
   kAuto = 0,  // those of which no frame has given a motion or pose
   kOn = 1,    // all

@@ -1,0 +1,125 @@
+#include "clearway/io/within_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
+#include "clearway/io/world_origin.h"
+
+namespace clearway {
+namespace {
+
+bool IsFar(const Eigen::Vector3d& p_W) {
+  return !(p_W.cwiseAbs().maxCoeff() <= FrameLimits().max_coordinate_m);
+}
+
+std::string FarText(const Eigen::Vector3d& p_W) {
+  return absl::StrCat("is at ", OriginText(p_W), ", beyond the limit of ",
+                      NumberText(FrameLimits().max_coordinate_m), " m");
+}
+
+// Why a pose cannot be used by itself; empty if it can.
+std::string WhyUnusable(const RecordedPose& pose) {
+  if (IsFar(pose.T_W_S.translation)) return "the sensor " + FarText(pose.T_W_S.translation);
+  const std::int64_t stamp_ns = ToNanoseconds(pose.stamp);
+  if (stamp_ns > kFarthest_ns || stamp_ns < -kFarthest_ns) {
+    return absl::StrCat("the stamp ", stamp_ns, " ns is beyond the limit of 2^62 ns");
+  }
+  return "";
+}
+
+bool IsJump(const RecordedPose& from, const RecordedPose& to) {
+  return std::chrono::abs(to.stamp - from.stamp) > FrameLimits().max_stamp_jump;
+}
+
+// Whether the first pose is far from a second and third in time that are near each other.
+template <class Iterator>
+bool IsAlone(Iterator first, Iterator end) {
+  return std::distance(first, end) >= 3 && IsJump(*first, *std::next(first)) &&
+         !IsJump(*std::next(first), *std::next(first, 2));
+}
+
+std::string AloneText(const RecordedPose& pose, const RecordedPose& next) {
+  return absl::StrCat("the stamp ", ToNanoseconds(pose.stamp), " ns lies ",
+                      NumberText(ToSeconds(std::chrono::abs(pose.stamp - next.stamp))),
+                      " s from the next frame's; the limit is ",
+                      NumberText(ToSeconds(FrameLimits().max_stamp_jump)), " s");
+}
+
+// The poses that can be used. Why others cannot goes to left_out.
+std::vector<RecordedPose> UsablePoses(const std::vector<RecordedPose>& poses, LeftOut& left_out) {
+  const auto leave_out = [&](const RecordedPose& pose, const std::string& why) {
+    left_out.AddFrame(absl::StrCat("frame ", pose.frame, ": ", why));
+  };
+  std::vector<RecordedPose> usable;
+  for (const RecordedPose& pose : poses) {
+    const std::string why = WhyUnusable(pose);
+    why.empty() ? usable.push_back(pose) : leave_out(pose, why);
+  }
+  if (IsAlone(usable.begin(), usable.end())) {
+    leave_out(usable[0], AloneText(usable[0], usable[1]));
+    usable.erase(usable.begin());
+  }
+  if (IsAlone(usable.rbegin(), usable.rend())) {
+    leave_out(usable.back(), AloneText(usable.back(), *std::next(usable.rbegin())));
+    usable.pop_back();
+  }
+  return usable;
+}
+
+// The frames of these poses alone, without the boxes that are far.
+FrameSource FramesAt(const std::vector<RecordedPose>& poses, const LidarFolder& folder) {
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
+    const int frame = folder.poses[folder.first_pose + k].frame;
+    if (std::ranges::binary_search(poses, frame, {}, &RecordedPose::frame)) kept.push_back(k);
+  }
+  FrameSource source = folder.frames;
+  source.frame_count = kept.size();
+  source.read = [kept = std::move(kept),
+                 read = folder.frames.read](std::size_t index) -> absl::StatusOr<Frame> {
+    if (index >= kept.size()) {
+      return absl::OutOfRangeError(
+          absl::StrCat("frame index ", index, "; there are ", kept.size(), " frames"));
+    }
+    auto frame = read(kept[index]);
+    if (frame.ok()) {
+      std::erase_if(frame->poses,
+                    [](const ObjectPose& pose) { return IsFar(pose.T_W_B.translation); });
+    }
+    return frame;
+  };
+  return source;
+}
+
+}  // namespace
+
+absl::StatusOr<LidarFolder> WithinScene(LidarFolder folder) {
+  LeftOut& left_out = *folder.frames.left_out;
+  LeftOut of_scene;
+  std::vector<RecordedPose> poses = UsablePoses(folder.poses, of_scene);
+  if (poses.empty() && !of_scene.Empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        folder.frames.description, ": no frame can be used; ", of_scene.reasons.front()));
+  }
+  left_out.Add(of_scene);
+  const int first_frame =
+      folder.first_pose < folder.poses.size() ? folder.poses[folder.first_pose].frame : 0;
+  folder.frames = FramesAt(poses, folder);
+  folder.poses = std::move(poses);
+  folder.first_pose = static_cast<std::size_t>(
+      std::ranges::lower_bound(folder.poses, first_frame, {}, &RecordedPose::frame) -
+      folder.poses.begin());
+  std::erase_if(folder.boxes, [&](const RecordedBox& box) {
+    const bool is_far = IsFar(box.T_W_B.translation);
+    if (is_far) {
+      left_out.AddRow(absl::StrCat("frame ", box.frame, ", object ", box.id, ": the box ",
+                                   FarText(box.T_W_B.translation)));
+    }
+    return is_far;
+  });
+  return folder;
+}
+
+}  // namespace clearway

@@ -1,0 +1,141 @@
+#include "scene/contradicted_placement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::AddPoint;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+
+// A van of 4 x 2 x 2 m, first at (5, 0, 1), that goes along x at 1 m/s.
+class ContradictedPlacement : public testing::Test {
+ protected:
+  static Frame Showing(double seconds, double x_m) {
+    Frame frame = FrameAt(seconds);
+    AddObject(frame, 5, Pose::Translation(x_m, 0, 1), BoxSurface({4, 2, 2}, 0.2));
+    return frame;
+  }
+  FrameReport Applied(const Frame& frame) {
+    const auto report = dut_.Apply(frame);
+    EXPECT_TRUE(report.ok()) << report.status();
+    return report.ok() ? *report : FrameReport();
+  }
+  // Six frames with motions, or with poses, the last at 0.5 s.
+  void ShowMoving(bool with_poses) {
+    for (int k = 0; k < 6; ++k) {
+      Frame frame = Showing(0.1 * k, 5 + 0.1 * k);
+      if (with_poses) {
+        frame.poses.push_back({5, Pose::Translation(5 + 0.1 * k, 0, 1)});
+      } else if (k > 0) {
+        frame.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(0.1 * (k - 1))});
+      }
+      EXPECT_TRUE(Applied(frame).issues.empty());
+    }
+  }
+  MovingObject Object() { return *dut_.Publish()->FindObject(5); }
+  double Length() { return Object().solid->box_O.Size().x(); }
+  double CenterX() {
+    const MovingObject object = Object();
+    return (object.history.back().T_W_O * object.solid->box_O.Center()).x();
+  }
+
+  ThreadPool pool_{1};
+  SceneBuilder dut_{SceneParams{}, FrameLimits{}, pool_};
+};
+
+TEST_F(ContradictedPlacement, AWrongMotionIsLeftOutAndNamed) {
+  for (const double wrong_m : {4.0, -6.0, 40.0, 90.0}) {
+    dut_.Reset();
+    ShowMoving(false);
+    Frame frame = Showing(0.6, 5.6);
+    frame.motions.push_back({5, Pose::Translation(wrong_m, 0, 0), At(0.5)});
+    const FrameReport report = Applied(frame);
+    EXPECT_EQ(report.motions_implausible, 1u) << wrong_m;
+    ASSERT_EQ(report.issues.size(), 1u) << wrong_m;
+    EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kContradicted);
+    EXPECT_EQ(report.issues[0].id, 5);
+    EXPECT_NEAR(report.issues[0].value, std::abs(wrong_m - 0.1), 0.3);
+    EXPECT_LT(report.issues[0].limit, 3.1);
+    EXPECT_LT(Length(), 4.5) << wrong_m;
+    EXPECT_NEAR(CenterX(), 5.6, 0.2) << wrong_m;
+  }
+}
+
+TEST_F(ContradictedPlacement, SoIsAWrongPoseAndTheNextCounts) {
+  ShowMoving(true);
+  Frame wrong = Showing(0.6, 5.6);
+  wrong.poses.push_back({5, Pose::Translation(77, 0, 1)});
+  const FrameReport report = Applied(wrong);
+  ASSERT_EQ(report.issues.size(), 1u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kContradicted);
+  EXPECT_EQ(report.objects_bridged, 1u);
+  Frame next = Showing(0.7, 5.7);
+  next.poses.push_back({5, Pose::Translation(5.7, 0, 1)});
+  EXPECT_TRUE(Applied(next).issues.empty());
+  EXPECT_LT(Length(), 4.5);
+  EXPECT_NEAR(CenterX(), 5.7, 0.1);
+  EXPECT_FALSE(Object().bridged);
+}
+
+// As where an id is used again for something else.
+TEST_F(ContradictedPlacement, PointsFarFromMotionAndPredictionBeginANewModel) {
+  ShowMoving(false);
+  Frame frame = Showing(0.6, 60);
+  frame.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(0.5)});
+  const FrameReport report = Applied(frame);
+  EXPECT_EQ(report.objects_restarted, 1u);
+  ASSERT_EQ(report.issues.size(), 2u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kContradicted);
+  EXPECT_EQ(report.issues[1].kind, ObjectIssueKind::kRestarted);
+  EXPECT_LT(Length(), 4.5);
+  EXPECT_NEAR(CenterX(), 60, 0.2);
+}
+
+// The rear end of a lorry, after its front end.
+TEST_F(ContradictedPlacement, TheOtherEndOfAnObjectIsItsOwn) {
+  Frame front = FrameAt(0);
+  AddObject(front, 5, Pose::Translation(20, 0, 1), BoxSurface({0.5, 2, 2}, 0.2));
+  front.poses.push_back({5, Pose::Translation(12, 0, 1)});
+  Applied(front);
+  Frame rear = FrameAt(1);
+  AddObject(rear, 5, Pose::Translation(6, 0, 1), BoxSurface({0.5, 2, 2}, 0.2));
+  rear.poses.push_back({5, Pose::Translation(14, 0, 1)});
+  EXPECT_TRUE(Applied(rear).issues.empty());
+  EXPECT_GT(Length(), 15);
+}
+
+TEST_F(ContradictedPlacement, AMotionThatThePointsConfirmCounts) {
+  ShowMoving(false);
+  Frame frame = Showing(0.6, 25);
+  frame.motions.push_back({5, Pose::Translation(19.5, 0, 0), At(0.5)});
+  EXPECT_TRUE(Applied(frame).issues.empty());
+  EXPECT_LT(Length(), 4.5);
+  EXPECT_NEAR(CenterX(), 25, 0.1);
+}
+
+TEST_F(ContradictedPlacement, TwoStrayPointsSayNothing) {
+  ShowMoving(false);
+  Frame frame = FrameAt(0.6);
+  AddPoint(frame, 5, {5.6, 0, 1});
+  AddPoint(frame, 5, {5.7, 0, 1});
+  frame.motions.push_back({5, Pose::Translation(8, 0, 0), At(0.5)});
+  EXPECT_TRUE(Applied(frame).issues.empty());
+}
+
+TEST_F(ContradictedPlacement, AnObjectThatIsNotSeenGoesWhereItIsSaidToBe) {
+  ShowMoving(false);
+  Frame frame = FrameAt(0.6);
+  frame.motions.push_back({5, Pose::Translation(40, 0, 0), At(0.5)});
+  EXPECT_TRUE(Applied(frame).issues.empty());
+  EXPECT_NEAR(CenterX(), 45.5, 0.1);
+}
+
+}  // namespace
+}  // namespace clearway
