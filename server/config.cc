@@ -100,6 +100,12 @@ absl::StatusOr<Flags> ReadFlags(std::vector<std::string> arguments) {
   return flags;
 }
 
+// The variable is named when it is to blame.
+absl::Status SetBy(const std::string& variable, const absl::Status& status) {
+  return absl::Status(status.code(),
+                      absl::StrCat(std::string(status.message()), " (set by ", variable, ")"));
+}
+
 absl::Status Require(bool condition, const char* key, const std::string& what) {
   if (condition) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(key, ": ", what));
@@ -113,10 +119,13 @@ absl::Status Validate(const ServerConfig& config) {
       new std::set<std::string>{"trace", "debug", "info", "warning", "error", "off"};
   const absl::StatusOr<ListenAddress> listen = ParseListenAddress(config.listen);
   if (!listen.ok()) return listen.status();
+  // What cannot be listened on needs no certificate.
+  const bool open = !listen->IsLocal();
   for (const absl::Status& status :
-       {Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
+       {!tls && open ? CheckResolves(*listen) : absl::OkStatus(),
+        Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
                 "tls_cert and tls_key belong together"),
-        Require(tls || listen->IsLocal(), "listen",
+        Require(tls || !open, "listen",
                 absl::StrCat(config.listen,
                              " can be reached from elsewhere, which needs tls_cert "
                              "and tls_key")),
@@ -138,21 +147,21 @@ absl::StatusOr<CommandLine> ReadCommandLine(const std::vector<std::string>& argu
   if (!flags.ok()) return flags.status();
   if (!flags->help.empty()) return CommandLine{{}, false, flags->help, {}};
   EnvironmentValues from_environment = ReadEnvironment(environment);
-  const std::string& file = flags->file.empty() ? from_environment.config_file : flags->file;
+  const bool named_by_flag = !flags->file.empty();
+  const std::string& file = named_by_flag ? flags->file : from_environment.config_file;
   Values values;
   if (!file.empty()) {
-    if (auto status = ReadFile(file, values); !status.ok()) return status;
+    const auto status = ReadFile(file, values);
+    if (!status.ok()) return named_by_flag ? status : SetBy("CLEARWAY_CONFIG", status);
   }
   for (const Values* stronger : {&from_environment.values, &flags->values}) {
     for (const auto& [key, value] : *stronger) values[key] = value;
   }
-  // The variable is named when it is to blame.
   const auto blame = [&](const absl::Status& status) {
     const std::string message(status.message());
     const std::string key = message.substr(0, message.find_first_of(": "));
     if (flags->values.count(key) != 0 || from_environment.values.count(key) == 0) return status;
-    return absl::InvalidArgumentError(
-        absl::StrCat(message, " (set by ", FindSetting(key)->EnvironmentName(), ")"));
+    return SetBy(FindSetting(key)->EnvironmentName(), status);
   };
   CommandLine line;
   line.print_config = flags->print_config;

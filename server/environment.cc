@@ -67,9 +67,10 @@ EnvironmentValues ReadEnvironment(const std::vector<std::string>& environment) {
     }
   }
   if (!links.empty()) {
-    read.warnings.push_back(absl::StrCat("environment: ", absl::StrJoin(links, ", "),
-                                         " look like an orchestrator's links to a service and are "
-                                         "ignored"));
+    read.warnings.push_back(absl::StrCat(
+        "environment: ", absl::StrJoin(links, ", "),
+        links.size() == 1 ? " looks like an orchestrator's link to a service and is ignored"
+                          : " look like an orchestrator's links to a service and are ignored"));
   }
   return read;
 }

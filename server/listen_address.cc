@@ -56,6 +56,15 @@ absl::StatusOr<int> ParsePort(const std::string& text, const std::string& whole)
   return port;
 }
 
+// getaddrinfo also knows "127.1" and "2130706433", which others read otherwise.
+absl::Status CheckNumericHost(const std::string& host, const std::string& whole) {
+  in_addr ipv4;
+  const bool numeric = host.find_first_not_of("0123456789.") == std::string::npos;
+  if (!numeric || inet_pton(AF_INET, host.c_str(), &ipv4) == 1) return absl::OkStatus();
+  return Bad(absl::StrCat(whole, ": ", host,
+                          " is not an IPv4 address: four numbers from 0 to 255 with dots between"));
+}
+
 absl::Status ErrorOf(int error, const std::string& what) {
   return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat("listen: ", what));
 }
@@ -92,7 +101,9 @@ absl::Status BindError(int error, const ListenAddress& address) {
   }
 }
 
-absl::Status CheckHost(const ListenAddress& address) {
+using AddrInfos = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+absl::StatusOr<AddrInfos> Resolve(const ListenAddress& address) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
@@ -102,10 +113,15 @@ absl::Status CheckHost(const ListenAddress& address) {
     return absl::NotFoundError(
         absl::StrCat("listen: cannot resolve host ", address.host, ": ", gai_strerror(fault)));
   }
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(infos, freeaddrinfo);
+  return AddrInfos(infos, freeaddrinfo);
+}
+
+absl::Status CheckHost(const ListenAddress& address) {
+  const auto infos = Resolve(address);
+  if (!infos.ok()) return infos.status();
   int first_error = 0;
   bool any = false;
-  for (const addrinfo* info = infos; info != nullptr; info = info->ai_next) {
+  for (const addrinfo* info = infos->get(); info != nullptr; info = info->ai_next) {
     const int error = TryToBind(*info);
     // Clients of a name that two servers share would reach either.
     if (error == EADDRINUSE) return BindError(error, address);
@@ -188,11 +204,17 @@ absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text) {
   if (host.find_first_of("[]") != std::string::npos || bracketed != absl::StrContains(host, ':')) {
     return Bad(absl::StrCat(text, ": an IPv6 address is written [address]:port"));
   }
+  if (auto status = CheckNumericHost(host, text); !status.ok()) return status;
   address.host = host;
   auto port = ParsePort(rest.substr(colon + 1), text);
   if (!port.ok()) return port.status();
   address.port = *port;
   return address;
+}
+
+absl::Status CheckResolves(const ListenAddress& address) {
+  const auto infos = Resolve(address);
+  return infos.ok() ? absl::OkStatus() : absl::InvalidArgumentError(infos.status().message());
 }
 
 absl::Status CheckCanListen(const ListenAddress& address) {

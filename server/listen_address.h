@@ -20,8 +20,12 @@ struct ListenAddress {
 };
 
 // "host:port", "[IPv6]:port" or "unix:path"; gRPC's prefixes ipv4:, ipv6: and dns: may stand before
-// the host. INVALID_ARGUMENT saying what is wrong.
+// the host. A host of digits and dots is four numbers (not 127.1). INVALID_ARGUMENT saying what is
+// wrong.
 absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text);
+
+// INVALID_ARGUMENT if no address is known for the host. May ask a name server.
+absl::Status CheckResolves(const ListenAddress& address);
 
 // Why the server could not listen there: the address is in use (ALREADY_EXISTS), is not this
 // machine's or does not resolve (NOT_FOUND), the socket's folder is missing (NOT_FOUND), there is

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/io/octomap_file.h"
 #include "server/handler.h"
 #include "server/map_export.h"
@@ -59,6 +61,20 @@ absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>&
   }
   if (received == Received::kGarbage) return GarbageError();
   return bytes;
+}
+
+// Boxes without a volume would keep nothing out.
+absl::Status CheckVolumes(const std::vector<Aabb>& boxes_W) {
+  for (std::size_t i = 0; i < boxes_W.size(); ++i) {
+    const Eigen::Vector3d size_m = boxes_W[i].Size();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (size_m[axis] > 0) continue;
+      return FieldError(absl::StrCat("boxes_world[", i, "].max_m.", std::string(1, "xyz"[axis])),
+                        absl::StrCat("is ", NumberText(boxes_W[i].max[axis]),
+                                     ", as the minimum; it must be above it"));
+    }
+  }
+  return absl::OkStatus();
 }
 
 // As many as fill all blocks of the scene.
@@ -132,11 +148,18 @@ grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
     FieldReader read;
     const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
     if (!read.ok()) return read.status();
-    const auto change = [box_W](SceneBuilder& builder) {
-      builder.ClearRegion(box_W);
+    // The writer may come to it when this call has been given up.
+    const auto cleared = std::make_shared<std::int64_t>(0);
+    const auto change = [box_W, cleared](SceneBuilder& builder) {
+      *cleared = builder.ClearRegion(box_W);
       return absl::OkStatus();
     };
-    return ApplyChange(core_, context, change, false, response);
+    const absl::Status status = ApplyChange(core_, context, change, false, response);
+    if (!status.ok()) return status;
+    const VoxelGrid grid(core_.config.scene.resolution_m);
+    response->set_voxels_cleared(static_cast<std::uint64_t>(*cleared));
+    response->set_voxels_in_box(static_cast<std::uint64_t>(grid.CentersIn(box_W).count()));
+    return absl::OkStatus();
   });
 }
 
@@ -152,6 +175,7 @@ grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
           read.Box(absl::StrCat("boxes_world[", i, "]"), true, request->boxes_world(i)));
     }
     if (!read.ok()) return read.status();
+    if (auto status = CheckVolumes(boxes_W); !status.ok()) return status;
     const auto change = [boxes_W](SceneBuilder& builder) {
       builder.SetKeepOut(boxes_W);
       return absl::OkStatus();

@@ -10,6 +10,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
+#include "clearway/base/decimal.h"
 #include "server/config.h"
 
 namespace clearway {
@@ -28,8 +29,8 @@ absl::Status Parse(const std::string& text, bool& value) {
   return absl::SimpleAtob(text, &value) ? absl::OkStatus() : Bad(text, "true or false");
 }
 absl::Status Parse(const std::string& text, double& value) {
-  return absl::SimpleAtod(text, &value) && std::isfinite(value) ? absl::OkStatus()
-                                                                : Bad(text, "a number");
+  return ParseDecimal(text, value) && std::isfinite(value) ? absl::OkStatus()
+                                                           : Bad(text, "a number");
 }
 absl::Status Parse(const std::string& text, int& value) {
   return absl::SimpleAtoi(text, &value) ? absl::OkStatus() : Bad(text, "a whole number");
@@ -41,7 +42,7 @@ absl::Status Parse(const std::string& text, std::uint64_t& value) {
 absl::Status Parse(const std::string& text, Duration& value) {
   double seconds = 0;
   constexpr double kLimit_s = 1e9;  // FromSeconds takes less than 9.2e9
-  if (!absl::SimpleAtod(text, &seconds) || !(std::abs(seconds) <= kLimit_s)) {
+  if (!ParseDecimal(text, seconds) || !(std::abs(seconds) <= kLimit_s)) {
     return Bad(text, "a time in seconds of at most 1e9 either way");
   }
   value = FromSeconds(seconds);
@@ -67,15 +68,18 @@ absl::Status Parse(const std::string& text, MotionFromPoints& value) {
 absl::Status Parse(const std::string& text, std::vector<Aabb>& boxes) {
   std::vector<double> numbers;
   for (const auto& part : absl::StrSplit(text, absl::ByAnyChar(" ,;[]"), absl::SkipEmpty())) {
-    if (!absl::SimpleAtod(part, &numbers.emplace_back())) return Bad(text, "a list of numbers");
+    if (!ParseDecimal({part.data(), part.size()}, numbers.emplace_back()))
+      return Bad(text, "a list of numbers");
   }
   if (numbers.size() % 6 != 0) return Bad(text, "a list of six numbers a box: minimum, maximum");
   boxes.clear();
   for (std::size_t i = 0; i < numbers.size(); i += 6) {
     const double* n = &numbers[i];
     boxes.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
-    if (!boxes.back().min.allFinite() || !boxes.back().max.allFinite() || boxes.back().Empty()) {
-      return Bad(text, "finite, with each minimum at most its maximum");
+    const Aabb& box = boxes.back();
+    if (!box.min.allFinite() || !box.max.allFinite() ||
+        (box.min.array() >= box.max.array()).any()) {
+      return Bad(text, "finite, with each minimum below its maximum");
     }
   }
   return absl::OkStatus();
@@ -123,19 +127,24 @@ std::string Print(const std::vector<Aabb>& boxes) {
   return absl::StrCat("[", absl::StrJoin(texts, ", "), "]");
 }
 
-// What a number may be, both ends included.
+// What a number may be.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+  bool with_ends = true;
 };
 
 // Of the text of a number, before it is converted to a type that may not hold it. Other texts pass.
 absl::Status CheckRange(const std::string& key, const std::string& text, const Range& range) {
   double value = 0;
-  if (!absl::SimpleAtod(text, &value) || std::isnan(value)) return absl::OkStatus();
-  if (value >= range.min && value <= range.max) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(key, ": is ", text, "; it must lie between ",
-                                                 Print(range.min), " and ", Print(range.max)));
+  if (!ParseDecimal(text, value) || std::isnan(value)) return absl::OkStatus();
+  if (range.with_ends ? value >= range.min && value <= range.max
+                      : value > range.min && value < range.max) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat(
+      key, ": is ", text, range.with_ends ? "; it must lie between " : "; it must be above ",
+      Print(range.min), range.with_ends ? " and " : " and below ", Print(range.max)));
 }
 
 // A setting of one member; field(config) gives a reference to it.
@@ -188,7 +197,8 @@ std::vector<Setting> ServerSettings() {
 
 // What Validate(SceneParams) says of single values, said at once and by their keys.
 constexpr Range kVoxel_m{0.001, 100}, kUpToADay_s{0, 86'400};
-constexpr Range kProbability{0.0004, 0.9996}, kUnlikely{0.0004, 0.5}, kLikely{0.5, 0.9996};
+constexpr Range kProbability{0.0004, 0.9996, false}, kUnlikely{0.0004, 0.5, false},
+    kLikely{0.5, 0.9996, false};
 
 std::vector<Setting> SceneSettings() {
   return {

@@ -1,8 +1,10 @@
 #include "cli/cli.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "clearway/base/number_text.h"
@@ -41,6 +43,25 @@ void AddAllCommands(Cli& cli) {
   AddBench(cli);
 }
 
+// CLI11 takes 0x10 for 16 and 010 for 8.
+std::string WhyNotDecimal(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  const bool zero = first != std::string::npos && text[first] == '0' && first + 1 < text.size();
+  const char next = zero ? text[first + 1] : '.';
+  if (next == '.' || next == 'e' || next == 'E') return "";
+  return absl::StrCat("expected a decimal number without leading zeros, not '", text, "'");
+}
+
+void RefuseOtherNumbersThanDecimal(CLI::App& app) {
+  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (CLI::Option* const option : command->get_options()) {
+      const std::string type = option->get_type_name();
+      const bool number = type == "INT" || type == "UINT" || type == "FLOAT" || type == "ID";
+      if (number) option->check(CLI::Validator(WhyNotDecimal, ""));
+    }
+  }
+}
+
 // The exit code of what went well, unless its output did not get out.
 int Done(const Terminal& terminal) {
   if (terminal.out.flush()) return kExitOk;
@@ -64,8 +85,13 @@ int Explain(const CLI::App& app, const CLI::ParseError& error, const Terminal& t
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
   // What is not known comes before what is missing, as that may just be misspelt.
   const std::vector<std::string> unknown = app.remaining(/*recurse=*/true);
-  const auto flag = std::ranges::find_if(unknown, [](const auto& w) { return w.starts_with("-"); });
-  if (flag != unknown.end()) message = "there is no flag " + *flag;
+  const auto flag =
+      std::ranges::find_if(unknown, [](const auto& w) { return w.starts_with("-") && w != "--"; });
+  if (flag != unknown.end()) {
+    const bool after = std::ranges::count(unknown, "--") > 0;
+    message = after ? *flag + " stands behind --, where nothing counts as a flag"
+                    : "there is no flag " + *flag;
+  }
   terminal.err << "clearway: " << message << "\nRun '" << command << " --help' for its usage.\n";
   return kExitUsage;
 }
@@ -84,9 +110,10 @@ CLI::App* AddCommand(Cli& cli, const std::string& name, const std::string& summa
 CLI::Validator NotNegative() {
   return CLI::Validator(
       [](const std::string& text) {
-        constexpr std::size_t kMostDigits = 19;  // of 64 bits
-        if (text.starts_with('-')) return text + " is negative";
-        return text.size() > kMostDigits ? text + " is too large" : std::string();
+        std::uint64_t ignored = 0;
+        if (absl::SimpleAtoi(text, &ignored)) return std::string();
+        return absl::StrCat("expected a whole number from 0 to ",
+                            std::numeric_limits<std::uint64_t>::max(), ", not '", text, "'");
       },
       "");
 }
@@ -108,6 +135,7 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal) {
   app.footer(kFooter);
   Cli cli{app, terminal, CommandLine(argc, argv), nullptr};
   AddAllCommands(cli);
+  RefuseOtherNumbersThanDecimal(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

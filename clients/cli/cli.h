@@ -43,7 +43,7 @@ int RunCli(int argc, const char* const* argv, Terminal& terminal);
 
 // Refuses what is no number from `low` to `high`, NaN above all. (CLI11's own ranges let NaN pass.)
 CLI::Validator Between(double low, double high);
-// Refuses what is negative, which would pass for a large number.
+// Refuses what is no whole number from 0 to 2^64 - 1: negative ones would pass for large ones.
 CLI::Validator NotNegative();
 
 // Adds a flag whose text is read by `parse`; what that refuses is a usage error with its message.

@@ -1,8 +1,12 @@
 // clearway check: is a robot free at given places and times?
 #include <memory>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/client/remote_checker.h"
+#include "clearway/client/scene_client.h"
 #include "cli/check_flags.h"
 #include "cli/check_output.h"
 #include "cli/commands.h"
@@ -17,6 +21,28 @@ constexpr char kExamples[] =
     "  echo 'x,y,z,yaw,t\n"
     "  12,-3,0.6,0,+2' | clearway check --robot robot.json --states - --json";
 
+// An id that is no object's leaves nothing out, and is hardly what was meant.
+absl::Status NoteUnknownObjects(const CheckOptions& options, const SceneClient& client,
+                                const SceneQuery& query, std::ostream& err) {
+  std::set<ObjectId> known = {kStaticLabel};
+  std::vector<std::pair<const char*, ObjectId>> named;
+  for (const ObjectId id : options.ignored_objects) named.emplace_back("--ignore", id);
+  for (const auto& [link, id] : options.allowed_contacts) named.emplace_back("--allow", id);
+  if (named.empty()) return absl::OkStatus();
+  const auto list = client.ListObjects(query);
+  if (!list.ok()) return list.status();
+  for (const ObjectInfo& object : list->objects) {
+    known.insert(object.id);
+    known.insert(object.also.begin(), object.also.end());
+    for (const ObjectInfo& part : object.parts) known.insert(part.id);
+  }
+  for (const auto& [flag, id] : named) {
+    if (known.contains(id)) continue;
+    err << "note: " << flag << ": the scene has no object " << id << "\n";
+  }
+  return absl::OkStatus();
+}
+
 absl::Status Run(const CheckFlags& flags, const Terminal& terminal) {
   auto file = LoadRobot(flags.robot);
   if (!file.ok()) return file.status();
@@ -29,6 +55,12 @@ absl::Status Run(const CheckFlags& flags, const Terminal& terminal) {
   const auto checker = RemoteChecker::Pin(*connection, std::move(file->robot));
   if (!checker.ok()) return checker.status();
   PrintRobotNotes((*checker)->robot(), terminal.err);
+
+  if (auto status = NoteUnknownObjects(*options, SceneClient(*connection),
+                                       {0, (*checker)->lease_id()}, terminal.err);
+      !status.ok()) {
+    return status;
+  }
 
   const StateBatch batch = BatchOf(*states, file->T_R_L, (*checker)->stamp());
   const auto reply = (*checker)->Check(batch, *options);

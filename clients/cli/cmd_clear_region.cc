@@ -1,6 +1,9 @@
 // clearway clear-region: makes a part of the static map unknown again.
 #include <memory>
+#include <string>
 
+#include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "clearway/client/scene_client.h"
 #include "cli/commands.h"
 #include "cli/json.h"
@@ -35,20 +38,38 @@ absl::Status NoteIfOutside(const SceneClient& client, const Aabb& box_W, std::os
   return absl::OkStatus();
 }
 
+void NoteIfBetweenCenters(const ClearedRegion& cleared, double resolution_m, std::ostream& err) {
+  if (cleared.voxels_in_box > 0) return;
+  err << "note: the box holds no centre of a voxel, so nothing is cleared; voxels of "
+      << NumberText(resolution_m) << " m have centres at odd multiples of "
+      << NumberText(resolution_m / 2) << " m\n";
+}
+
+std::string AsText(const ClearedRegion& cleared, const Aabb& box_W) {
+  const std::string box = absl::StrCat("from ", Point(box_W.min), " to ", Point(box_W.max), " m");
+  const std::string version = absl::StrCat(" in scene version ", cleared.version, "\n");
+  if (cleared.voxels_in_box == 0) return absl::StrCat("no voxel cleared ", box, version);
+  return absl::StrCat("the static map is unknown ", box, version, Grouped(cleared.voxels_cleared),
+                      " of ", Grouped(cleared.voxels_in_box),
+                      " voxels cleared; the others were unknown before\n");
+}
+
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
   const SceneClient client(*connection);
   if (auto status = NoteIfOutside(client, flags.box_W, terminal.err); !status.ok()) return status;
-  const auto scene = client.ClearRegion(flags.box_W);
-  if (!scene.ok()) return scene.status();
+  const auto cleared = client.ClearRegion(flags.box_W);
+  if (!cleared.ok()) return cleared.status();
+  NoteIfBetweenCenters(*cleared, (*connection)->server().params.resolution_m, terminal.err);
   if (flags.json) {
-    Json json = ToJson(*scene);
+    Json json = ToJson(*cleared);
     json["box_world"] = ToJson(flags.box_W);
+    json["voxels_cleared"] = cleared->voxels_cleared;
+    json["voxels_in_box"] = cleared->voxels_in_box;
     Print(terminal.out, json);
   } else {
-    terminal.out << "the static map is unknown from " << Point(flags.box_W.min) << " to "
-                 << Point(flags.box_W.max) << " m in scene version " << scene->version << "\n";
+    terminal.out << AsText(*cleared, flags.box_W);
   }
   return absl::OkStatus();
 }

@@ -14,6 +14,7 @@
 #include "cli/json.h"
 #include "cli/message.h"
 #include "cli/server_flags.h"
+#include "cli/source_flags.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
@@ -157,7 +158,7 @@ void AddExport(Cli& cli) {
       "static (default), object:ID in its own frame, or\nscene@TIME: everything as it is then "
       "(scene: now)")
       ->type_name("MAP");
-  AddParsed(command, "--origin", &flags->origin_m, ParsePoint,
+  AddParsed(command, "--origin", &flags->origin_m, ParseOriginPoint,
             "Add x,y,z to every point of a PLY, in double precision:\nwhat --origin of 'replay' "
             "subtracted (its note says it)")
       ->type_name("ORIGIN");

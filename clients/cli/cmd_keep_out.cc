@@ -94,7 +94,7 @@ void AddKeepOut(Cli& cli) {
   CLI::App* command =
       AddCommand(cli, "keep-out", "List, add or remove boxes that always count as occupied",
                  kExamples, [flags, &cli] { return Run(*flags, cli.terminal); });
-  AddParsedList(command, "--add", &flags->add, ParseOrderedBox,
+  AddParsedList(command, "--add", &flags->add, ParseSolidBox,
                 "Add x0,y0,z0,x1,y1,z1: the lowest and the highest corner\nin the world frame, in "
                 "metres. May be given several times")
       ->type_name("BOX");

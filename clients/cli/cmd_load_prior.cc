@@ -114,7 +114,9 @@ void AddLoadPrior(Cli& cli) {
   command->add_flag(
       "--resample", flags->resample,
       "Convert a map whose voxels have another size than the\nserver's: occupied where "
-      "any of the map is, free where\nall of it is, else unknown");
+      "any of the map is, free where\nall of it is, else unknown. Overlaps of up to a\nthousandth "
+      "of the "
+      "smaller voxel do not count");
   command->add_flag("--json", flags->json, "Print JSON");
   AddServerFlags(command, &flags->server);
 }

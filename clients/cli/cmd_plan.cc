@@ -12,6 +12,7 @@
 #include "cli/borrowed_objects.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/message.h"
 #include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
@@ -163,7 +164,10 @@ absl::StatusOr<PlanOutcome> PlanWith(const RemotePlanner& planner, const SceneCl
     auto outcome = planner.Plan(scenario.task, budget, found, {version, ""});
     const bool too_late = absl::IsInvalidArgument(outcome.status()) &&
                           DetailsOf(outcome.status()).field == "start_ns";
-    if (!too_late || !scenario.starts_at_once || tries == kTries) return outcome;
+    if (too_late && !scenario.starts_at_once) {
+      return InContext("start_s, in nanoseconds of the scene", outcome.status());
+    }
+    if (!too_late || tries == kTries) return outcome;
   }
 }
 

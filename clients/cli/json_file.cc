@@ -2,6 +2,8 @@
 
 #include <array>
 #include <istream>
+#include <set>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
@@ -12,11 +14,57 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 16'000'000;
 
+// Finds a key that an object has twice: JSON parsers silently keep the last one's value.
+class RepeatedKeys {
+ public:
+  void See(Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key) return SeeKey(parsed.get<std::string>());
+    if (event == Event::object_end || event == Event::array_end) {
+      levels_.pop_back();
+      return;
+    }
+    if (!levels_.empty() && levels_.back().is_list) ++levels_.back().items;
+    if (event != Event::value) levels_.push_back({.is_list = event == Event::array_start});
+  }
+
+  // Empty if there is none.
+  const std::string& error() const { return error_; }
+
+ private:
+  // An object or a list that has begun and not ended.
+  struct Level {
+    bool is_list = false;
+    std::size_t items = 0;
+    std::string key = {};
+    std::set<std::string> keys = {};
+  };
+
+  void SeeKey(const std::string& key) {
+    levels_.back().key = key;
+    if (levels_.back().keys.insert(key).second || !error_.empty()) return;
+    for (const Level& level : levels_) {
+      absl::StrAppend(&error_, level.is_list ? absl::StrCat("[", level.items - 1, "]")
+                                             : (error_.empty() ? "" : ".") + level.key);
+    }
+    error_ += ": given twice";
+  }
+
+  std::vector<Level> levels_;
+  std::string error_;
+};
+
 }  // namespace
 
 absl::StatusOr<Json> ParseJson(const std::string& text) {
   try {
-    return Json::parse(text);
+    RepeatedKeys keys;
+    Json json = Json::parse(text, [&keys](int, Json::parse_event_t event, const Json& parsed) {
+      keys.See(event, parsed);
+      return true;
+    });
+    if (keys.error().empty()) return json;
+    return absl::InvalidArgumentError(keys.error());
   } catch (const nlohmann::json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
     const std::string what = error.what();

@@ -10,7 +10,7 @@
 
 namespace clearway::cli {
 
-// INVALID_ARGUMENT naming line and column.
+// INVALID_ARGUMENT naming line and column, or the key that an object has twice.
 absl::StatusOr<Json> ParseJson(const std::string& text);
 
 // The text of a file of at most 16 MB, without a byte order mark. NOT_FOUND calls it `kind` ("robot

@@ -132,7 +132,7 @@ absl::StatusOr<Shape> ParseShapeText(const std::string& text) {
   return absl::InvalidArgumentError(
       absl::StrCat("expected box:x,y,z, sphere:radius, cylinder:radius,length or "
                    "capsule:radius,length in metres, not '",
-                   text, "'"));
+                   text, "'", numbers.ok() && !positive ? "; lengths are above 0" : ""));
 }
 
 }  // namespace clearway::cli

@@ -1,6 +1,7 @@
 #include "cli/scenario_file.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "cli/check_flags.h"
 #include "cli/json_fields.h"
 #include "cli/json_file.h"
@@ -73,22 +74,25 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
     if (!read.ok()) return read.status();
     *number = *read;
   }
-  if (!fields.Has("time_limit_s")) return fields.Error("time_limit_s", "missing");
   if (!std::holds_alternative<ArmSpace>(task.space) && !fields.Has("max_speed_mps")) {
     return fields.Error("max_speed_mps", "missing");
   }
   if (Turns(task.space) && !fields.Has("max_turn_radps")) {
     return fields.Error("max_turn_radps", "missing");
   }
-  Duration start{};
-  for (const auto& [name, duration] :
-       {std::pair{"start_s", &start}, {"time_limit_s", &task.time_limit}}) {
-    if (!fields.Has(name)) continue;
-    const auto read = fields.Seconds(name);
-    if (!read.ok()) return read.status();
-    *duration = *read;
+  if (fields.Has("start_s")) {
+    const auto start = fields.Seconds("start_s");
+    if (!start.ok()) return start.status();
+    task.start_time = Time() + *start;
   }
-  task.start_time = Time() + start;
+  const auto limit_s = fields.Number("time_limit_s");
+  if (!limit_s.ok()) return limit_s.status();
+  if (!(*limit_s > 0 && *limit_s <= kMaxTimeLimit_s)) {
+    return fields.Error("time_limit_s", absl::StrCat("is ", NumberText(*limit_s),
+                                                     "; it must be above 0, and at most ",
+                                                     NumberText(kMaxTimeLimit_s)));
+  }
+  task.time_limit = FromSeconds(*limit_s);
   for (const auto& [name, values] : {std::pair{"start", &task.start}, {"goal", &task.goal}}) {
     auto read = fields.NumberList(name);
     if (!read.ok()) return read.status();
@@ -138,6 +142,12 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
   }
   if (fields->Has("tracks")) {
     constexpr ObjectId kFirstId = 1'000'000;
+    for (std::size_t i = 0; i < scenario.objects.size(); ++i) {
+      if (scenario.objects[i].id < kFirstId) continue;
+      return fields->Error(
+          absl::StrCat("objects[", i, "].id"),
+          absl::StrCat("is ", scenario.objects[i].id, "; ids from 1000000 on are those of tracks"));
+    }
     auto recorded = ParseTracks(json.at("tracks"), "tracks", kFirstId);
     if (!recorded.ok()) return recorded.status();
     scenario.objects.insert(scenario.objects.end(), recorded->objects.begin(),

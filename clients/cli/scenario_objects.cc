@@ -1,11 +1,16 @@
 #include "cli/scenario_objects.h"
 
+#include <map>
+
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "cli/json_fields.h"
 #include "cli/robot_shape.h"
 
 namespace clearway::cli {
 namespace {
+
+constexpr double kMaxId = 999'999'999;
 
 // The object's frame is its shape's: what `pose` the shape has in it is added to its own.
 absl::Status ParseShape(const JsonFields& fields, const Json& value,
@@ -56,8 +61,11 @@ absl::StatusOr<GivenObject> ParseGivenObject(const Json& value, const std::strin
   GivenObject object;
   const auto id = fields->Positive("id");
   if (!id.ok()) return id.status();
-  object.id = static_cast<ObjectId>(std::min(*id, 1e9));
-  if (object.id != *id) return fields->Error("id", "expected a whole number");
+  object.id = static_cast<ObjectId>(std::min(*id, kMaxId));
+  if (object.id != *id) {
+    return fields->Error("id", absl::StrCat("expected a whole number from 1 to ",
+                                            NumberText(kMaxId), ", not ", NumberText(*id)));
+  }
   if (auto status = ParseShape(*fields, value, folder, object); !status.ok()) return status;
   const auto pose = fields->PoseOrIdentity("pose");
   if (!pose.ok()) return pose.status();
@@ -72,9 +80,16 @@ absl::StatusOr<std::vector<GivenObject>> ParseGivenObjects(const Json& list,
                                                            const std::string& path,
                                                            const std::filesystem::path& folder) {
   std::vector<GivenObject> objects;
+  std::map<ObjectId, std::size_t> places;
   for (const Json& item : list) {
     auto object = ParseGivenObject(item, absl::StrCat(path, "[", objects.size(), "]"), folder);
     if (!object.ok()) return object.status();
+    const auto [place, is_new] = places.emplace(object->id, objects.size());
+    if (!is_new) {
+      return absl::InvalidArgumentError(absl::StrCat(path, "[", objects.size(),
+                                                     "].id: ", object->id, " is the id of ", path,
+                                                     "[", place->second, "], too"));
+    }
     objects.push_back(*std::move(object));
   }
   return objects;

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/base/number_text.h"
 #include "cli/tracks.h"
 
 namespace clearway::cli {
@@ -44,10 +45,17 @@ absl::Status CheckNear(const JsonFields& fields, const std::vector<Track>& track
 absl::StatusOr<TrackWindow> ParseWindow(const JsonFields& fields) {
   const auto from_s = fields.NumberOr("from_s", 0);
   if (!from_s.ok()) return from_s.status();
-  if (*from_s < 0) return fields.Error("from_s", "must not be below 0");
+  if (*from_s < 0) {
+    return fields.Error("from_s",
+                        absl::StrCat("is ", NumberText(*from_s), ", must not be below 0"));
+  }
   const auto for_s = fields.Positive("for_s");
   if (!for_s.ok()) return for_s.status();
-  if (*from_s + *for_s > kLongest_s) return fields.Error("for_s", "is too long");
+  if (*from_s + *for_s > kLongest_s) {
+    return fields.Error("for_s", absl::StrCat("is ", NumberText(*for_s),
+                                              " s; from_s and for_s together must be at most ",
+                                              NumberText(kLongest_s), " s"));
+  }
   return TrackWindow{*from_s, *for_s};
 }
 
@@ -113,7 +121,8 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
   if (!file.ok()) return file.status();
   for (const Track& track : *tracks) {
     if (std::abs(track.seen.front().t_s) > kLongest_s || track.seen.back().t_s > kLongest_s) {
-      return fields->Error("file", "its times are too long");
+      return fields->Error("file", absl::StrCat("its times are too long, beyond ",
+                                                NumberText(kLongest_s), " s either way"));
     }
     auto object = ObjectIn(*window, track);
     if (!object) continue;

@@ -176,16 +176,22 @@ void AddOriginFlag(CLI::App* command, SourceFlags* flags) {
 
 absl::StatusOr<WorldOrigin> ParseOrigin(const std::string& text) {
   if (text == "first") return WorldOrigin{.at_first_pose = true};
-  const auto position_m = ParsePoint(text);
-  if (!position_m.ok()) {
+  if (!ParsePoint(text).ok()) {
     return absl::InvalidArgumentError(
         absl::StrCat("expected first, or x,y,z in metres, not '", text, "'"));
   }
-  if (position_m->cwiseAbs().maxCoeff() > kMaxFileCoordinate_m) {
-    return absl::InvalidArgumentError(absl::StrCat("'", text, "' is beyond the limit of ",
-                                                   kMaxFileCoordinate_m, " m either way"));
-  }
+  const auto position_m = ParseOriginPoint(text);
+  if (!position_m.ok()) return position_m.status();
   return WorldOrigin{.position_m = *position_m};
+}
+
+absl::StatusOr<Eigen::Vector3d> ParseOriginPoint(const std::string& text) {
+  auto position_m = ParsePoint(text);
+  if (!position_m.ok() || position_m->cwiseAbs().maxCoeff() <= kMaxFileCoordinate_m) {
+    return position_m;
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat("'", text, "' is beyond the limit of ", kMaxFileCoordinate_m, " m either way"));
 }
 
 void AddSourceFlags(CLI::App* command, SourceFlags* flags) {

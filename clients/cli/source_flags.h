@@ -62,6 +62,8 @@ void AddSourceFlags(CLI::App* command, SourceFlags* flags);  // those of every k
 
 // "first", or "x,y,z" in metres.
 absl::StatusOr<WorldOrigin> ParseOrigin(const std::string& text);
+// "x,y,z" alone, each within kMaxFileCoordinate_m.
+absl::StatusOr<Eigen::Vector3d> ParseOriginPoint(const std::string& text);
 
 // A usage error names a flag that was given and what it is for, if the source `spec` is of another
 // kind. All flags of the command count that are for some kinds alone.

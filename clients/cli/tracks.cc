@@ -45,8 +45,9 @@ absl::StatusOr<std::optional<WorldOrigin>> RecordedOrigin(const JsonFields& fiel
   const auto position_m = fields.Vector(kField);
   if (!position_m.ok()) return position_m.status();
   if (position_m->cwiseAbs().maxCoeff() > kMaxFileCoordinate_m) {
-    return fields.Error(
-        kField, absl::StrCat("must lie within ", kMaxFileCoordinate_m, " m along each axis"));
+    return fields.Error(kField,
+                        absl::StrCat("is ", OriginText(*position_m), "; it must lie within ",
+                                     kMaxFileCoordinate_m, " m along each axis"));
   }
   return WorldOrigin{.position_m = *position_m};
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "clearway/io/lidar_folder.h"
 #include "cli/open_source.h"
 #include "cli/tracks.h"
@@ -29,7 +30,13 @@ absl::StatusOr<LidarFolder> OpenTables(const JsonFields& fields) {
   const auto folder = RecordedFile(fields);
   if (!folder.ok()) return folder.status();
   constexpr bool kAllowMissingPoints = true;
-  return OpenFolder(folder->string(), flags, kAllowMissingPoints);
+  auto tables = OpenFolder(folder->string(), flags, kAllowMissingPoints);
+  if (tables.ok()) return tables;
+  // Flags of the command line that the message may advise are fields here.
+  const std::string message = absl::StrReplaceAll(
+      tables.status().message(), {{"--origin first", "\"origin_m\": \"first\""},
+                                  {"--origin x,y,z,", "\"origin_m\": [x, y, z],"}});
+  return absl::Status(tables.status().code(), absl::StrCat(fields.PathOf("file"), ": ", message));
 }
 
 // When each frame was, in seconds since the first.

@@ -6,6 +6,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "clearway/base/decimal.h"
 
 namespace clearway::cli {
 namespace {
@@ -44,7 +45,8 @@ absl::StatusOr<Duration> ParseSeconds(const std::string& text) {
   decimals.resize(9, '0');
   if (!well_formed || (!whole.empty() && !absl::SimpleAtoi(whole, &seconds)) ||
       !absl::SimpleAtoi(decimals, &nanoseconds) || seconds > kMaxSeconds) {
-    return Expected("seconds such as 1.5, at most nine decimals", text);
+    return Expected("seconds such as 1.5 (no exponent, at most nine decimals and 9000000000)",
+                    text);
   }
   const Duration magnitude(seconds * kNanosecondsPerSecond + nanoseconds);
   return negative ? -magnitude : magnitude;
@@ -56,14 +58,17 @@ absl::StatusOr<TimeArgument> ParseTime(const std::string& text) {
   const bool relative = from_now || text.starts_with("+");
   const auto offset = ParseSeconds(from_now ? text.substr(3) : text);
   if (!offset.ok()) {
-    return Expected("seconds of sensor time (12.5), or after the newest stamp (+1.5, now-2)", text);
+    return Expected(
+        "seconds of sensor time (12.5), or after the newest stamp (+1.5, now-2), without an "
+        "exponent, at most nine decimals and 9000000000 either way",
+        text);
   }
   return TimeArgument{relative, *offset};
 }
 
 absl::StatusOr<double> ParseFinite(const std::string& text) {
   double value = 0;
-  if (!absl::SimpleAtod(text, &value) || !std::isfinite(value)) {
+  if (!ParseDecimal(text, value) || !std::isfinite(value)) {
     return Expected("a finite number", text);
   }
   return value;
@@ -102,6 +107,17 @@ absl::StatusOr<Aabb> ParseOrderedBox(const std::string& text) {
                                                    "1; give the lowest corner first"));
   }
   return Aabb{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+}
+
+absl::StatusOr<Aabb> ParseSolidBox(const std::string& text) {
+  auto box = ParseOrderedBox(text);
+  for (int axis = 0; box.ok() && axis < 3; ++axis) {
+    if (box->min[axis] < box->max[axis]) continue;
+    return absl::InvalidArgumentError(absl::StrCat("'", text, "': the box has no extent along ",
+                                                   std::string(1, "xyz"[axis]),
+                                                   "; it would keep nothing out"));
+  }
+  return box;
 }
 
 absl::StatusOr<Aabb> ParseArea(const std::string& text) {

@@ -35,6 +35,8 @@ absl::StatusOr<Eigen::Vector3d> ParsePoint(const std::string& text);
 absl::StatusOr<Aabb> ParseBox(const std::string& text);
 // The same, but the lowest corner must come first: a swapped pair is refused, not put right.
 absl::StatusOr<Aabb> ParseOrderedBox(const std::string& text);
+// The same of boxes that have a volume.
+absl::StatusOr<Aabb> ParseSolidBox(const std::string& text);
 // "x0,y0,x1,y1": two opposite corners; z stays 0.
 absl::StatusOr<Aabb> ParseArea(const std::string& text);
 

@@ -107,10 +107,14 @@ absl::StatusOr<Versioned> SceneClient::LoadPrior(MapFormat format,
   return ReadVersion(response.scene());
 }
 
-absl::StatusOr<Versioned> SceneClient::ClearRegion(const Aabb& box_W) const {
+absl::StatusOr<ClearedRegion> SceneClient::ClearRegion(const Aabb& box_W) const {
   v1::ClearRegionRequest request;
   Write(box_W, request.mutable_box_world());
-  return Change(*connection_, connection_->impl().map, &v1::MapService::Stub::ClearRegion, request);
+  const auto response = Call(connection_->options(), *connection_->impl().map,
+                             &v1::MapService::Stub::ClearRegion, request);
+  if (!response.ok()) return response.status();
+  return ClearedRegion{ReadVersion(response->scene()), response->voxels_cleared(),
+                       response->voxels_in_box()};
 }
 
 absl::StatusOr<Versioned> SceneClient::SetKeepOut(std::span<const Aabb> boxes_W) const {

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kMost_m = 100'000, kMostReach_m = 100, kMostSpeed = 1'000, kMostAngle_rad = 1'000;
 constexpr std::size_t kMostJoints = 32;
-constexpr std::chrono::hours kLongest{1};
 
 absl::Status Invalid(const std::string& field, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, " ", what));
@@ -169,9 +168,10 @@ absl::Status Validate(const PlanTask& task, const Robot& robot) {
   if (auto status = CheckArea(task); !status.ok()) return status;
   if (auto status = CheckConfiguration("start", task.start, task); !status.ok()) return status;
   if (auto status = CheckConfiguration("goal", task.goal, task); !status.ok()) return status;
-  if (task.time_limit <= Duration::zero() || task.time_limit > kLongest) {
-    return Invalid("time_limit_s", absl::StrCat("is ", NumberText(ToSeconds(task.time_limit)),
-                                                "; it must be above 0, and at most 3600"));
+  if (task.time_limit <= Duration::zero() || ToSeconds(task.time_limit) > kMaxTimeLimit_s) {
+    return Invalid("time_limit_s",
+                   absl::StrCat("is ", NumberText(ToSeconds(task.time_limit)),
+                                "; it must be above 0, and at most ", NumberText(kMaxTimeLimit_s)));
   }
   if (auto status = ValidateTime("start_ns", task.start_time); !status.ok()) return status;
   const Time latest_start = TimeFromNanoseconds(kFarthest_ns) - task.time_limit;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <initializer_list>
 
 #include "absl/strings/str_cat.h"
@@ -31,9 +32,11 @@ absl::Status CheckMesh(const std::string& field, const std::shared_ptr<const Mes
   if (mesh == nullptr || mesh->triangles.empty()) return Invalid(field, "has no triangles");
   for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
     if (!(mesh->vertices[i].array().abs() <= kMaxSize_m).all()) {
+      const Eigen::Vector3d& p = mesh->vertices[i];
       return Invalid(
           absl::StrCat(field, ".vertices_m"),
-          absl::StrCat("must be finite and within ", kMaxSize_m, " m; vertex ", i, " is not"));
+          absl::StrCat("must be finite and within ", kMaxSize_m, " m; vertex ", i, " is at (",
+                       NumberText(p.x()), ", ", NumberText(p.y()), ", ", NumberText(p.z()), ")"));
     }
   }
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
@@ -45,6 +48,24 @@ absl::Status CheckMesh(const std::string& field, const std::shared_ptr<const Mes
     }
   }
   return absl::OkStatus();
+}
+
+// That something can touch the mesh: a triangle of more than rounding's height. Whatever lies at
+// triangles that are lines or points is missed.
+absl::Status CheckArea(const std::string& field, const Mesh& mesh) {
+  constexpr double kRelativeTolerance = 1e-6;
+  double longest_m = 0, highest_m = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d ab = mesh.vertices[b] - mesh.vertices[a],
+                          ac = mesh.vertices[c] - mesh.vertices[a];
+    const double side_m = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    longest_m = std::max(longest_m, side_m);
+    if (side_m > 0) highest_m = std::max(highest_m, ab.cross(ac).norm() / side_m);
+  }
+  if (highest_m > kRelativeTolerance * longest_m) return absl::OkStatus();
+  return Invalid(absl::StrCat(field, ".triangles"),
+                 absl::StrCat("have no area: of all ", mesh.triangles.size(),
+                              " the corners lie on a line or are one point"));
 }
 
 // Six times the volume, by the divergence theorem; positive if the triangles face outward.
@@ -106,7 +127,9 @@ struct CheckShape {
     return CheckHull(mesh_field, *c.mesh);
   }
   absl::Status operator()(const TriangleMesh& t) const {
-    return CheckMesh(absl::StrCat(field, ".mesh"), t.mesh);
+    const std::string mesh_field = absl::StrCat(field, ".mesh");
+    if (auto status = CheckMesh(mesh_field, t.mesh); !status.ok()) return status;
+    return CheckArea(mesh_field, *t.mesh);
   }
 };
 

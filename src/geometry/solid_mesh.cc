@@ -159,6 +159,8 @@ class SolidBuilder {
     const Mesh hull = ConvexHullOf(corners);
     changed_ = true;
     if (hull.triangles.empty()) {
+      notes_.push_back(
+          absl::StrCat(faces.size(), " faces lie in a plane: they have a surface, but no inside"));
       for (const Face& face : faces) {
         faces_.push_back(face);
         faces_.push_back({face[0], face[2], face[1]});

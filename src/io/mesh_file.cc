@@ -18,6 +18,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
+#include "io/mesh_content.h"
 #include "io/mesh_io_system.h"
 
 namespace clearway {
@@ -30,12 +31,16 @@ constexpr std::array<const char*, 7> kExtensions = {".stl", ".obj",  ".ply", ".o
                                                     ".dae", ".gltf", ".glb"};
 constexpr int kMaxNodeDepth = 1000;
 
+std::string ExtensionOf(const Path& path) {
+  return absl::AsciiStrToLower(path.extension().string());
+}
+
 absl::Status CheckOptions(const Path& path, const MeshFileOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
     return absl::InvalidArgumentError(
         absl::StrCat("scale is ", NumberText(options.scale), "; it must be above 0"));
   }
-  const std::string extension = absl::AsciiStrToLower(path.extension().string());
+  const std::string extension = ExtensionOf(path);
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
     return absl::InvalidArgumentError(absl::StrCat(
         path.string(), ": the extension must be .stl, .obj, .ply, .off, .dae, .gltf or .glb"));
@@ -138,16 +143,51 @@ void KeepImportersFor(const std::string& extension, Assimp::Importer& importer) 
   }
 }
 
-absl::StatusOr<Mesh> Import(const Path& path, const std::string& bytes,
-                            const MeshFileOptions& options) {
+// Assimp leaves out faces that it cannot read, and ends the program where it cuts ones without a
+// corner into triangles.
+absl::Status CheckFaces(const aiScene& scene, FaceCount expected) {
+  std::uint64_t found = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      if (part.mFaces[i].mNumIndices == 0) {
+        return absl::InvalidArgumentError(
+            absl::StrCat("face ", i, " of mesh '", part.mName.C_Str(), "' has no vertices"));
+      }
+      if (part.mFaces[i].mNumIndices > 2) ++found;
+    }
+  }
+  if (!expected || found == *expected) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("it has ", *expected, " faces, of which ", found, " could be read"));
+}
+
+// A byte order mark stands before text only.
+absl::Status DropByteOrderMark(const std::string& extension, std::string& bytes) {
+  if (extension == ".glb" || (extension == ".stl" && IsWholeBinaryStl(bytes))) {
+    return absl::OkStatus();
+  }
+  const auto text = WithoutByteOrderMark("the file", bytes);
+  if (text.ok()) bytes.erase(0, bytes.size() - text->size());
+  return text.status();
+}
+
+absl::StatusOr<Mesh> Import(const Path& path, std::string bytes, const MeshFileOptions& options) {
+  const absl::Status text = DropByteOrderMark(ExtensionOf(path), bytes);
+  if (!text.ok()) return text;
+  const absl::StatusOr<FaceCount> faces = CheckMeshContent(ExtensionOf(path), bytes);
+  if (!faces.ok()) return faces.status();
   Assimp::Importer importer;
-  KeepImportersFor(absl::AsciiStrToLower(path.extension().string().substr(1)), importer);
+  KeepImportersFor(ExtensionOf(path).substr(1), importer);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, !options.collada_y_up);
   const auto files = new MeshIoSystem(path, bytes, options.max_bytes);
   importer.SetIOHandler(files);  // which it owns from now on
-  const aiScene* const scene =
-      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure);
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (!files->status().ok()) return files->status();
+  if (scene != nullptr && scene->mRootNode != nullptr) {
+    if (const auto status = CheckFaces(*scene, *faces); !status.ok()) return status;
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     return absl::InvalidArgumentError(absl::StrCat("not readable: ", importer.GetErrorString()));
   }
@@ -159,11 +199,11 @@ absl::StatusOr<Mesh> Import(const Path& path, const std::string& bytes,
 absl::StatusOr<Mesh> ReadMesh(const Path& path, const MeshFileOptions& options) {
   const absl::Status status = CheckOptions(path, options);
   if (!status.ok()) return status;
-  const absl::StatusOr<std::string> bytes = ReadWholeFile(path, options.max_bytes);
+  absl::StatusOr<std::string> bytes = ReadWholeFile(path, options.max_bytes);
   if (!bytes.ok()) return bytes.status();
   absl::StatusOr<Mesh> mesh = absl::InternalError("");
   try {
-    mesh = Import(path, *bytes, options);
+    mesh = Import(path, *std::move(bytes), options);
   } catch (const std::exception& error) {  // memory, and what assimp does not catch itself
     mesh = absl::InvalidArgumentError(absl::StrCat("not readable: ", error.what()));
   }

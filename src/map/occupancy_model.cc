@@ -11,8 +11,8 @@ namespace {
 absl::Status CheckBetween(const char* field, double value, double low, double high) {
   if (value > low && value < high) return absl::OkStatus();  // false for NaN
   return absl::InvalidArgumentError(absl::StrCat(field, " is ", NumberText(value),
-                                                 "; it must lie between ", NumberText(low), " and ",
-                                                 NumberText(high)));
+                                                 "; it must be above ", NumberText(low),
+                                                 " and below ", NumberText(high)));
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 #include "clearway/map/voxel_key.h"
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
 #include "base/multiversion.h"
 
 namespace clearway {
@@ -33,6 +38,33 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
 static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
 
 }  // namespace
+
+std::uint64_t VoxelRange::count() const {
+  std::uint64_t count = 1;
+  for (const auto& [from, to] :
+       {std::pair{first.x, last.x}, {first.y, last.y}, {first.z, last.z}}) {
+    if (to < from) return 0;
+    count *= static_cast<std::uint64_t>(to - from + 1);
+  }
+  return count;
+}
+
+VoxelRange VoxelGrid::CentersIn(const Aabb& box) const {
+  constexpr double kTolerance = 1e-6;  // of a voxel
+  const auto index = [](double position) {
+    return static_cast<std::int32_t>(
+        std::clamp(position, -1.0 - kMaxVoxelIndex, 1.0 * kMaxVoxelIndex));
+  };
+  VoxelRange range;
+  for (const auto& [from, to, low, high] :
+       {std::tuple(&range.first.x, &range.last.x, box.min.x(), box.max.x()),
+        std::tuple(&range.first.y, &range.last.y, box.min.y(), box.max.y()),
+        std::tuple(&range.first.z, &range.last.z, box.min.z(), box.max.z())}) {
+    *from = std::max(-kMaxVoxelIndex, index(std::ceil(voxels_per_m_ * low - 0.5 - kTolerance)));
+    *to = std::min(kMaxVoxelIndex - 1, index(std::floor(voxels_per_m_ * high - 0.5 + kTolerance)));
+  }
+  return range;
+}
 
 void VoxelGrid::KeysOf(std::span<const Eigen::Vector3d> points, VoxelKey* keys) const {
   if (points.empty()) return;

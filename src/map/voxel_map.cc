@@ -71,20 +71,21 @@ void VoxelMap::Set(VoxelKey key, LogOdds value) {
   PutBlock(BlockOf(key), block);
 }
 
-void VoxelMap::Forget(const Aabb& box) {
+std::int64_t VoxelMap::Forget(const Aabb& box) {
+  const VoxelRange range = grid_.CentersIn(box);
+  if (range.count() == 0) return 0;
   std::vector<std::pair<BlockKey, VoxelBlock>> changed;
-  const double limit_m = grid_.limit_m();
-  const Eigen::Vector3d low = box.min.cwiseMax(-limit_m), high = box.max.cwiseMin(limit_m);
-  if ((low.array() > high.array()).any()) return;
-  const BlockKey first = BlockOf(grid_.KeyOf(low)), last = BlockOf(grid_.KeyOf(high));
-  blocks_.ForEachIn(first, last, [&](BlockKey key, const VoxelBlock& before) {
-    VoxelBlock block = before;
-    before.observed.ForEach([&](int index) {
-      if (box.Contains(grid_.CenterOf(VoxelAt(key, index)))) block.Forget(index);
-    });
-    if (block != before) changed.emplace_back(key, block);
-  });
+  blocks_.ForEachIn(BlockOf(range.first), BlockOf(range.last),
+                    [&](BlockKey key, const VoxelBlock& before) {
+                      VoxelBlock block = before;
+                      before.observed.ForEach([&](int index) {
+                        if (range.Contains(VoxelAt(key, index))) block.Forget(index);
+                      });
+                      if (block != before) changed.emplace_back(key, block);
+                    });
+  const std::int64_t observed = observed_count_;
   for (const auto& [key, block] : changed) PutBlock(key, block);
+  return observed - observed_count_;
 }
 
 void VoxelMap::ForgetBlocksOutside(const Aabb& box) {

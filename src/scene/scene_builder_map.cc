@@ -50,13 +50,14 @@ absl::Status SceneBuilder::LoadPrior(const VoxelMap& prior_W) {
   return absl::OkStatus();
 }
 
-void SceneBuilder::ClearRegion(const Aabb& box_W) {
+std::int64_t SceneBuilder::ClearRegion(const Aabb& box_W) {
   VoxelMap static_map_W = scene_.static_map_W;
-  static_map_W.Forget(box_W);
+  const std::int64_t cleared = static_map_W.Forget(box_W);
   DynamicSpace dynamic_W = StillIn(static_map_W, scene_.dynamic_W);
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
   changed_ = true;
+  return cleared;
 }
 
 void SceneBuilder::SetKeepOut(std::vector<Aabb> boxes_W) {

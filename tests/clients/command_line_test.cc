@@ -118,6 +118,55 @@ TEST(CommandLine, RefusesNumbersOutOfRangeShortly) {
   EXPECT_EQ(RunClearway({"status", "--timeout", "nan"}).exit_code, 2);
 }
 
+TEST(CommandLine, NumbersAreDecimal) {
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{
+           {"clear-region", "0x1,0,0,20,1,1"},
+           {"keep-out", "--add", "0x1,0,0,20,1,1"},
+           {"occupancy", "--at", "0x1,0,0"},
+           {"occupancy", "--slice", "0x1"},
+           {"check", "--robot", "box:0x1,1,1", "--state", "0,0,0,0"},
+           {"check", "--robot", "box:1,1,1", "--state", "0x1,0,0,0"},
+           {"check", "--robot", "box:1,1,1", "--state", "0,0,0,0", "--padding", "0x1"},
+           {"check", "--robot", "box:1,1,1", "--state", "0,0,0,0", "--ignore", "0x10"},
+           {"check", "--robot", "box:1,1,1", "--state", "0,0,0,0", "--ignore", "010"},
+           {"objects", "--remove", "7,010"},
+           {"simulate", "small", "--out", "/nonexistent/x.cwr", "--seed", "0x10"},
+           {"simulate", "small", "--out", "/nonexistent/x.cwr", "--frames", "010"},
+           {"status", "--timeout", "0x1"}}) {
+    std::vector<std::string> line = flags;
+    const bool asks = line.front() != "simulate";
+    if (asks) line.insert(line.end(), {"--server", "127.0.0.1:1"});
+    EXPECT_EQ(RunClearway(line).exit_code, 2) << flags.front() << " " << flags.back();
+  }
+}
+
+TEST(CommandLine, SaysWhatIsWrongWithWholeNumbers) {
+  for (const std::string bad : {"abc", "-1", "18446744073709551616", "1.5"}) {
+    EXPECT_THAT(RunClearway({"replay", "sim:small", "--sensor-run=" + bad}).err,
+                HasSubstr("--sensor-run: expected a whole number from 0 to 18446744073709551615, "
+                          "not '" +
+                          bad + "'"));
+  }
+  const Finished most = RunClearway({"replay", "sim:small", "--sensor-run", "18446744073709551615",
+                                     "--server", "127.0.0.1:1", "--timeout", "1"});
+  EXPECT_EQ(most.exit_code, 1) << most.err;
+}
+
+TEST(CommandLine, FlagsBehindTwoDashesAreNone) {
+  const Finished dut = RunClearway({"clear-region", "--", "-1,-1,-1,2,2,2", "--json"});
+  EXPECT_EQ(dut.exit_code, 2);
+  EXPECT_THAT(dut.err, HasSubstr("--json stands behind --, where nothing counts as a flag"));
+  EXPECT_THAT(RunClearway({"clear-region", "--server", "127.0.0.1:1", "--timeout", "1", "--",
+                           "-1,-1,-1,2,2,2"})
+                  .err,
+              HasSubstr("no server answers"));
+}
+
+TEST(CommandLine, FarOriginsAreRefusedWithTheLimit) {
+  EXPECT_THAT(RunClearway({"export", "--out", "x.ply", "--origin", "1e9,0,0"}).err,
+              HasSubstr("--origin: '1e9,0,0' is beyond the limit of 1e+08 m either way"));
+}
+
 TEST(CommandLine, SaysThatNoServerAnswers) {
   for (const char* command : {"status", "bench"}) {
     // Port 1 is nobody's.

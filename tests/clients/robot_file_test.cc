@@ -80,6 +80,17 @@ TEST(RobotFile, RefusesShapesInShortThatMakeNoSense) {
   }
 }
 
+TEST(RobotFile, RefusesShapesInShortWithoutSizeAndSaysWhy) {
+  EXPECT_THAT(std::string(LoadRobot("sphere:0").status().message()),
+              HasSubstr("not 'sphere:0'; lengths are above 0"));
+  EXPECT_FALSE(LoadRobot("box:0x1,1,1").ok());
+}
+
+TEST(RobotFile, RefusesKeysThatAreGivenTwice) {
+  EXPECT_EQ(MessageOf(WithShapes(R"([{"type": "sphere", "radius_m": 1, "radius_m": 2}])")),
+            "r.json: links[0].shapes[0].radius_m: given twice");
+}
+
 TEST(RobotFile, NamesAMissingFile) {
   EXPECT_THAT(std::string(LoadRobot("no_such.json").status().message()),
               HasSubstr("no_such.json: no such robot file"));

@@ -106,6 +106,24 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("\"t_s\": 10, ", "\"t_s\": 1e15, ",
          "objects[0].future[0].t_s: is 1e+15 s, must be at most 1e+06 s either way");
   expect("\"radius_m\": 0.5", "\"radius_m\": -1", "objects[1].shape.radius_m");
+  expect("\"id\": 4", "\"id\": 3", "s.json: objects[1].id: 3 is the id of objects[0], too");
+  expect("\"id\": 3", "\"id\": 1e10",
+         "objects[0].id: expected a whole number from 1 to 999999999, not 1e+10");
+  for (const char* limit : {"0", "3601", "1e300"}) {
+    expect("\"time_limit_s\": 60", (std::string("\"time_limit_s\": ") + limit).c_str(),
+           "; it must be above 0, and at most 3600");
+  }
+}
+
+TEST(ScenarioFile, KeysThatAreGivenTwiceAreNamed) {
+  const auto expect = [](const char* what, const char* by, const char* message) {
+    EXPECT_EQ(MessageOf(Spoilt(what, by)), message);
+  };
+  expect("\"start_s\": 2,", "\"start_s\": 2, \"name\": \"other\",", "s.json: name: given twice");
+  expect("\"id\": 4,", "\"id\": 4, \"id\": 5,", "s.json: objects[1].id: given twice");
+  expect("\"t_s\": 10,", "\"t_s\": 10, \"t_s\": 10,",
+         "s.json: objects[0].future[0].t_s: given twice");
+  EXPECT_TRUE(ParseScenario("s.json", kDoor).ok());
 }
 
 // Two people: one is seen from 8 s to 12 s and goes along x, one long before.

@@ -104,7 +104,11 @@ TEST_F(TracksOrigin, BoxesAreMovedWithTheirSensor) {
   const DataVariable data(drive.path().parent_path());
   const std::string fields =
       "\"format\": \"boxes\", \"file\": \"" + drive.path().filename().string() + "\"";
-  EXPECT_THAT(std::string(Parse(fields).status().message()), HasSubstr("beyond the limit"));
+  const std::string far(Parse(fields).status().message());
+  EXPECT_THAT(far, HasSubstr("tracks.file: "));
+  EXPECT_THAT(far, HasSubstr("\"origin_m\": \"first\" moves the origin"));
+  const std::string beside(Parse(fields + ", \"origin_m\": [1, 2, 3]").status().message());
+  EXPECT_THAT(beside, HasSubstr("\"origin_m\": [x, y, z], near the poses, moves the origin"));
   const auto dut = Parse(fields + ", \"origin_m\": \"first\"");
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_EQ((*dut)[0].pose.T_W_O.translation, Eigen::Vector3d(9, 3, -0.5));

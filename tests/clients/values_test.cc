@@ -1,5 +1,6 @@
 #include "cli/values.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace clearway::cli {
@@ -65,6 +66,30 @@ TEST(ParsePoint, RefusesWhatIsNoPoint) {
   for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1;2;3"}) {
     EXPECT_FALSE(ParsePoint(text).ok()) << text;
   }
+}
+
+TEST(ParseSolidBox, RefusesBoxesWithoutExtent) {
+  EXPECT_TRUE(ParseSolidBox("0,0,0,1,1,0.1").ok());
+  EXPECT_EQ(ParseSolidBox("0,0,0,1,1,0").status().message(),
+            "'0,0,0,1,1,0': the box has no extent along z; it would keep nothing out");
+  EXPECT_FALSE(ParseSolidBox("1,1,1,1,1,1").ok());
+  EXPECT_FALSE(ParseSolidBox("1,0,0,0,1,1").ok());
+}
+
+TEST(ParseNumbers, AreDecimal) {
+  for (const char* text : {"0x10", "-0X1p3", "0x", "1,0x10"}) {
+    EXPECT_FALSE(ParseNumbers(text).ok()) << text;
+  }
+  EXPECT_FALSE(ParseBox("0x1,0,0,2,2,2").ok());
+  EXPECT_FALSE(ParseOrderedBox("0x1,0,0,2,2,2").ok());
+  EXPECT_FALSE(ParsePoint("0x1,0,0").ok());
+  EXPECT_EQ(*ParseFinite("010"), 10);
+  EXPECT_EQ(*ParseFinite("1e3"), 1000);
+}
+
+TEST(ParseTime, SaysWhyAnExponentIsRefused) {
+  EXPECT_THAT(std::string(ParseTime("1e30").status().message()),
+              testing::HasSubstr("without an exponent, at most nine decimals and 9000000000"));
 }
 
 TEST(ParsePoint, NamesWhatItFound) {

@@ -118,6 +118,10 @@ TEST(RobotTest, RefusesBadShapesByField) {
   Mesh not_finite = *CubeMesh(1), out_of_range = *CubeMesh(1);
   not_finite.vertices[3].y() = kNaN;
   out_of_range.triangles[5][2] = 8;
+  Mesh too_far = *CubeMesh(1);
+  too_far.vertices[1].x() = 100.5;
+  const Mesh line{{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {0.1, 0.1, 0.1}}, {{0, 1, 2}, {3, 1, 3}}};
+  const Mesh point{{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}};
   const std::vector<Refused> cases = {
       {Sphere{0}, "sphere.radius_m is 0"},
       {Sphere{kNaN}, "sphere.radius_m is nan"},
@@ -133,7 +137,10 @@ TEST(RobotTest, RefusesBadShapesByField) {
       {TriangleMesh{nullptr}, "mesh has no triangles"},
       {TriangleMesh{Shared(Mesh{})}, "mesh has no triangles"},
       {TriangleMesh{Shared(not_finite)},
-       "mesh.vertices_m must be finite and within 100 m; vertex 3"},
+       "mesh.vertices_m must be finite and within 100 m; vertex 3 is at ("},
+      {TriangleMesh{Shared(too_far)}, "vertex 1 is at (100.5, "},
+      {TriangleMesh{Shared(line)}, "mesh.triangles have no area: of all 2 the corners"},
+      {TriangleMesh{Shared(point)}, "mesh.triangles have no area"},
       {TriangleMesh{Shared(out_of_range)}, "mesh.triangles name vertex 8 of 8 in triangle 5"},
   };
   for (const Refused& refused : cases) {

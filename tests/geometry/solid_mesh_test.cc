@@ -241,6 +241,16 @@ TEST(SolidMesh, FinsStaySurfaces) {
   EXPECT_FALSE(Holds(dut, {0.6, 0.61, 0}));
 }
 
+TEST(SolidMesh, FacesInAPlaneHaveNoInsideAndSaySo) {
+  const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
+  const Mesh apart{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}},
+                   {{0, 1, 2}, {3, 4, 5}}};
+  EXPECT_THAT(Made(sheet).note, HasSubstr("the surface is open"));
+  EXPECT_THAT(Made(apart).note,
+              HasSubstr("2 faces lie in a plane: they have a surface, but no inside"));
+  for (const Mesh& mesh : {sheet, apart}) EXPECT_FALSE(Holds(Made(mesh), {0.2, 0.2, 0.1}));
+}
+
 // As a band with a half turn.
 TEST(SolidMesh, OneSidedSurfacesGiveTheirHull) {
   Mesh band;

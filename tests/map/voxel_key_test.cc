@@ -30,6 +30,43 @@ TEST(VoxelKey, BlockAndIndexGiveTheVoxelBack) {
   }
 }
 
+TEST(VoxelKey, ABoxHoldsTheVoxelsOfTheCentersInIt) {
+  const VoxelGrid dut(0.1);
+  const VoxelRange range = dut.CentersIn({{0, -0.16, 0.26}, {0.1, 0.06, 0.44}});
+  EXPECT_EQ(range.first, (VoxelKey{0, -2, 3}));
+  EXPECT_EQ(range.last, (VoxelKey{0, 0, 3}));
+  EXPECT_EQ(range.count(), 3u);
+  EXPECT_TRUE(range.Contains({0, -1, 3}));
+  EXPECT_FALSE(range.Contains({0, 1, 3}));
+  EXPECT_EQ(dut.CentersIn({{0.06, 0, 0}, {0.14, 1, 1}}).count(), 0u);  // between two centres
+  EXPECT_EQ(dut.CentersIn(Aabb()).count(), 0u);
+}
+
+// 0.05, 0.15 and so on are no doubles, and no more are the centres.
+TEST(VoxelKey, ABoxThatIsACenterHoldsItsVoxelAlone) {
+  for (const double resolution_m : {0.1, 0.05, 0.07, 0.3}) {
+    const VoxelGrid dut(resolution_m);
+    for (std::int32_t i = -2000; i < 2000; ++i) {
+      const VoxelKey key{i, -i, 7 * i};
+      for (const double off : {-1e-7, 0.0, 1e-7}) {
+        const Eigen::Vector3d p = dut.CenterOf(key).array() + off * resolution_m;
+        const VoxelRange range = dut.CentersIn({p, p});
+        EXPECT_EQ(range.count(), 1u);
+        EXPECT_EQ(range.first, key);
+      }
+      const Eigen::Vector3d beside = dut.CenterOf(key).array() + 1e-5 * resolution_m;
+      EXPECT_EQ(dut.CentersIn({beside, beside}).count(), 0u);
+    }
+  }
+}
+
+TEST(VoxelKey, ABoxLargerThanTheGridHoldsAllOfIt) {
+  const VoxelRange all = VoxelGrid(0.1).CentersIn({{-1e12, -1e12, -1e12}, {1e12, 1e12, 1e12}});
+  EXPECT_TRUE(InRange(all.first) && InRange(all.last));
+  EXPECT_EQ(all.count(), std::uint64_t{1} << 63);
+  EXPECT_EQ(VoxelGrid(0.1).CentersIn({{2e5, 0, 0}, {3e5, 1, 1}}).count(), 0u);
+}
+
 TEST(VoxelKey, AddressableExcludesWhatIsNotFinite) {
   const VoxelGrid dut(0.1);
   EXPECT_TRUE(dut.Addressable({dut.limit_m(), 0, 0}));

@@ -92,14 +92,17 @@ TEST(VoxelMap, ForgetsVoxelsInTheBoxAlone) {
   for (int i = 0; i < 5000; ++i) dut.Set(RandomKey(random), 100);
   const VoxelMap before = dut;
   const Aabb box{{-0.5, -10, 0}, {0.55, 0.3, 1e9}};
-  dut.Forget(box);
+  const std::int64_t forgotten = dut.Forget(box);
+  const VoxelRange range = dut.grid().CentersIn(box);
   before.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
     block.observed.ForEach([&](int i) {
-      const bool inside = box.Contains(dut.grid().CenterOf(VoxelAt(key, i)));
+      const bool inside = range.Contains(VoxelAt(key, i));
       EXPECT_EQ(dut.State(VoxelAt(key, i)) == VoxelState::kUnknown, inside);
     });
   });
   EXPECT_LT(dut.observed_count(), before.observed_count());
+  EXPECT_EQ(dut.observed_count(), before.observed_count() - forgotten);
+  EXPECT_EQ(dut.Forget(box), 0);
 }
 
 TEST(VoxelMap, ForgettingAllIsTheEmptyMap) {

@@ -196,6 +196,14 @@ TEST_F(BadInput, Maps) {
   v1::SetKeepOutResponse keep_out_response;
   Expect(Call(*maps_, &v1::MapService::Stub::SetKeepOut, keep_out, &keep_out_response),
          Code::kResourceExhausted, "boxes_world");
+  keep_out.clear_boxes_world();
+  v1::AxisAlignedBox& flat = *keep_out.add_boxes_world();
+  flat.mutable_min_m()->set_z(1);
+  flat.mutable_max_m()->set_x(1);
+  flat.mutable_max_m()->set_y(1);
+  flat.mutable_max_m()->set_z(1);
+  Expect(Call(*maps_, &v1::MapService::Stub::SetKeepOut, keep_out, &keep_out_response),
+         Code::kInvalidArgument, "boxes_world[0].max_m.z");
   v1::ClearRegionResponse clear_response;
   Expect(
       Call(*maps_, &v1::MapService::Stub::ClearRegion, v1::ClearRegionRequest(), &clear_response),

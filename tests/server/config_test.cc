@@ -163,7 +163,6 @@ TEST(ServerConfig, RefusesNumbersOutOfRangeNamingKeyValueAndRange) {
       {"scene.horizon_s", "86401", "0 and 86400"},
       {"scene.history_s", "1e12", "0 and 86400"},
       {"scene.object_resolution_m", "101", "0.001 and 100"},
-      {"scene.probability_hit", "0.4", "0.5 and 0.9996"},
       {"scene.sensor_pose_error_rad", "1.5", "0 and 1"},
   };
   for (const auto& [key, value, range] : cases) {
@@ -208,6 +207,14 @@ TEST(ServerConfig, RefusesBoxesThatAreNone) {
   }
 }
 
+TEST(ServerConfig, ProbabilitiesExcludeTheirLimits) {
+  EXPECT_EQ(Refusal({"--scene-probability-hit", "0.5"}),
+            "scene.probability_hit: is 0.5; it must be above 0.5 and below 0.9996");
+  EXPECT_EQ(Refusal({"--scene-probability-miss", "0.5"}),
+            "scene.probability_miss: is 0.5; it must be above 4e-04 and below 0.5");
+  EXPECT_TRUE(ReadCommandLine({"--scene-probability-hit", "0.51"}, {}).ok());
+}
+
 TEST(ServerConfig, RefusesAFileThatIsNotToml) {
   const TemporaryFolder folder;
   EXPECT_NE(Refusal({"--config", folder.Write("c.toml", "a = [").string()}).find("c.toml"),
@@ -222,6 +229,8 @@ TEST(ServerConfig, AddressesThatOthersReachNeedTls) {
        {"127.0.0.1:0", "ipv4:127.0.0.2:0", "localhost:1", "[::1]:5", "unix:/tmp/x"}) {
     EXPECT_TRUE(ReadCommandLine({"--listen", local}, {}).ok()) << local;
   }
+  EXPECT_THAT(Refusal({"--listen", "nobody.invalid:1"}),
+              testing::StartsWith("listen: cannot resolve host nobody.invalid: "));
   for (const char* open :
        {"0.0.0.0:1", "[::]:1", "127.example.org:1", "10.0.0.1:1", "example.org:1"}) {
     EXPECT_EQ(Refusal({"--listen", open}).rfind("listen", 0), 0u) << open;

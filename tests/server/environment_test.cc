@@ -51,6 +51,21 @@ TEST(Environment, LinksToServicesAreIgnoredTogether) {
   }
 }
 
+TEST(Environment, OneLinkIsWrittenOfInTheSingular) {
+  EXPECT_THAT(ReadEnvironment({"CLEARWAY_PORT=tcp://10.0.0.1:50151"}).warnings,
+              ElementsAre("environment: CLEARWAY_PORT looks like an orchestrator's link to a "
+                          "service and is ignored"));
+}
+
+TEST(Environment, AConfigurationFileThatIsNotThereIsBlamedOnTheVariable) {
+  const std::string variable = "CLEARWAY_CONFIG=/nonexistent/c.toml";
+  EXPECT_THAT(std::string(ReadCommandLine({}, {variable}).status().message()),
+              HasSubstr("/nonexistent/c.toml: no such file (set by CLEARWAY_CONFIG)"));
+  EXPECT_THAT(
+      std::string(ReadCommandLine({"--config", "/other.toml"}, {variable}).status().message()),
+      testing::Not(HasSubstr("CLEARWAY_CONFIG")));
+}
+
 TEST(Environment, MisspeltKeysAreWarningsWithTheNearestName) {
   for (const auto& [name, nearest] : std::vector<std::pair<std::string, std::string>>{
            {"CLEARWAY_SCENE_RESOLUTION", "CLEARWAY_SCENE_RESOLUTION_M"},

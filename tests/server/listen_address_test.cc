@@ -110,6 +110,11 @@ TEST(ListenAddress, RefusesWhatIsNone) {
   for (const char* ipv6 : {"::1:5", "[::1]", "[::1:5", "::1]:5", "[127.0.0.1]:5"}) {
     EXPECT_THAT(Refusal(ipv6), HasSubstr("[address]:port")) << ipv6;
   }
+  for (const char* host : {"256.1.1.1", "127.1", "2130706433", "1.2.3.4.5", "1.2.3."}) {
+    EXPECT_THAT(Refusal(std::string(host) + ":5"),
+                HasSubstr(std::string(host) + " is not an IPv4 address"))
+        << host;
+  }
   EXPECT_THAT(Refusal("unix:"), HasSubstr("names no path"));
   EXPECT_THAT(Refusal("unix://run/x"), HasSubstr("unix:/absolute"));
   const std::string most = "/" + std::string(106, 'x');

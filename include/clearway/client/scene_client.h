@@ -12,6 +12,12 @@
 
 namespace clearway {
 
+// The version in which a part of the static map is unknown.
+struct ClearedRegion : Versioned {
+  std::uint64_t voxels_cleared = 0;  // that were free or occupied before
+  std::uint64_t voxels_in_box = 0;   // known or not
+};
+
 // Typed calls. A cheap handle; any thread may call any method. Every call may fail as its transport
 // does (UNAVAILABLE, DEADLINE_EXCEEDED) beside what is named.
 class SceneClient {
@@ -58,7 +64,8 @@ class SceneClient {
 
   // The version in which the change is.
   absl::StatusOr<Versioned> LoadPrior(MapFormat format, std::string_view file_bytes) const;
-  absl::StatusOr<Versioned> ClearRegion(const Aabb& box_W) const;
+  // Of voxels whose centre lies in the box (VoxelGrid::CentersIn).
+  absl::StatusOr<ClearedRegion> ClearRegion(const Aabb& box_W) const;
   absl::StatusOr<Versioned> SetKeepOut(std::span<const Aabb> boxes_W) const;
   absl::StatusOr<Versioned> Reset() const;
   // What is told of objects, see SceneBuilder: all of a call or none.

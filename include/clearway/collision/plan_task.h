@@ -59,6 +59,8 @@ std::size_t DimensionOf(const ConfigurationSpace& space);
 std::vector<double> NormalizedConfiguration(const ConfigurationSpace& space,
                                             std::vector<double> values);
 
+inline constexpr double kMaxTimeLimit_s = 3600;
+
 // From one configuration to another, as early as can be. A plain value.
 struct PlanTask {
   ConfigurationSpace space;

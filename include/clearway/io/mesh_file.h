@@ -23,8 +23,9 @@ struct MeshFileOptions {
 // joined, triangles without area left out. Files of materials and textures are not looked at; a
 // glTF file's buffers must lie in or below its folder. A unit that a Collada file declares is
 // applied (without one, its numbers are metres); its up-axis is not, unless asked. NOT_FOUND;
-// INVALID_ARGUMENT for another extension, a file that assimp refuses, no triangle with an area, or
-// a coordinate that is not finite; RESOURCE_EXHAUSTED.
+// INVALID_ARGUMENT for another extension, a file that assimp refuses, one that is cut off or does
+// not hold what it states (docs/formats.md), no triangle with an area, or a coordinate that is not
+// finite; RESOURCE_EXHAUSTED.
 absl::StatusOr<Mesh> ReadMesh(const std::filesystem::path& path,
                               const MeshFileOptions& options = {});
 

@@ -58,6 +58,18 @@ constexpr bool InRange(VoxelKey key) {
   return ok(key.x) && ok(key.y) && ok(key.z);
 }
 
+// The voxels from `first` to `last` along each axis, both among them.
+struct VoxelRange {
+  VoxelKey first, last;
+
+  // 0 if `last` comes before `first` along any axis.
+  std::uint64_t count() const;
+  bool Contains(VoxelKey key) const {
+    return key.x >= first.x && key.x <= last.x && key.y >= first.y && key.y <= last.y &&
+           key.z >= first.z && key.z <= last.z;
+  }
+};
+
 // The regular grid that voxels lie on: origin at the frame's origin, edges of `resolution_m`. A
 // value. The arithmetic is OctoMap's (coordToKey, keyToCoord), so that keys agree bit for bit.
 class VoxelGrid {
@@ -86,6 +98,9 @@ class VoxelGrid {
     return {resolution_m_ * Eigen::Vector3d(key.x, key.y, key.z),
             resolution_m_ * Eigen::Vector3d(key.x + 1.0, key.y + 1.0, key.z + 1.0)};
   }
+  // The voxels whose centre lies in the box, or beside it by at most a millionth of a voxel: 0.25
+  // m is the centre of a voxel of 0.1 m, though neither number is exact.
+  VoxelRange CentersIn(const Aabb& box) const;
   // False for NaN and infinity too.
   bool Addressable(const Eigen::Vector3d& p) const { return (p.array().abs() <= limit_m()).all(); }
   bool operator==(const VoxelGrid&) const = default;

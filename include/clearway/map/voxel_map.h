@@ -38,8 +38,9 @@ class VoxelMap {
 
   // Stores one voxel. The value is clamped to the model's range. The key must be InRange.
   void Set(VoxelKey key, LogOdds value);
-  // Makes every voxel whose centre lies in the box unknown again.
-  void Forget(const Aabb& box);
+  // Makes every voxel whose centre lies in the box (VoxelGrid::CentersIn) unknown again. Returns
+  // how many of them were not before.
+  std::int64_t Forget(const Aabb& box);
   // Makes all voxels of the blocks that do not meet the box unknown again.
   void ForgetBlocksOutside(const Aabb& box);
   // Replaces a whole block, counts kept right. `block` must be canonical for this map's model.

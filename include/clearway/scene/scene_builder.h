@@ -94,8 +94,9 @@ class SceneBuilder {
   // frame. Applied whole or refused whole: INVALID_ARGUMENT for another resolution,
   // RESOURCE_EXHAUSTED for more blocks than FrameLimits allows.
   absl::Status LoadPrior(const VoxelMap& prior_W);
-  // Makes the static map's voxels in the box unknown again.
-  void ClearRegion(const Aabb& box_W);
+  // Makes the static map's voxels whose centre lies in the box (VoxelGrid::CentersIn) unknown
+  // again. Returns how many of them were not before.
+  std::int64_t ClearRegion(const Aabb& box_W);
   void SetKeepOut(std::vector<Aabb> boxes_W);
 
   // Objects that are told, not seen. Frames move them as they move others, but give them no points

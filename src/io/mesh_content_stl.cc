@@ -1,0 +1,103 @@
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "io/mesh_content.h"
+#include "io/mesh_lines.h"
+#include "io/parse_number.h"
+
+namespace clearway {
+namespace {
+
+// An ASCII STL file, word by word.
+class StlText {
+ public:
+  explicit StlText(std::string_view text) : lines_(text) {}
+
+  absl::StatusOr<FaceCount> Check() {
+    while (NextWord()) {
+      if (word_ != "solid") return Unexpected("solid");
+      SkipLine();
+      if (const auto status = CheckSolid(); !status.ok()) return status;
+      SkipLine();
+    }
+    return FaceCount(facets_);
+  }
+
+ private:
+  bool NextWord() {
+    word_ = TakeWord(line_);
+    while (word_.empty()) {
+      if (!lines_.Next(line_)) return false;
+      word_ = TakeWord(line_);
+    }
+    return true;
+  }
+  void SkipLine() { line_ = {}; }
+
+  absl::Status CheckSolid() {
+    while (NextWord() && word_ != "endsolid") {
+      if (word_ != "facet") return Unexpected("facet or endsolid");
+      if (const auto status = CheckFacet(); !status.ok()) return status;
+      ++facets_;
+    }
+    return word_ == "endsolid" ? absl::OkStatus() : Unexpected("facet or endsolid");
+  }
+
+  absl::Status CheckFacet() {
+    for (const char* const word :
+         {"normal", "#", "#", "#", "outer",  "loop", "vertex", "#", "#",       "#",
+          "vertex", "#", "#", "#", "vertex", "#",    "#",      "#", "endloop", "endfacet"}) {
+      const bool number = *word == '#';
+      double ignored = 0;
+      if (!NextWord()) return Unexpected(number ? "a number" : word);
+      if (number ? ParseNumber(word_, ignored) : word_ == word) continue;
+      return Unexpected(number ? "a number" : word);
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status Unexpected(const std::string& expected) const {
+    const std::string found = word_.empty() ? "the file is cut off" : "found " + Quoted(word_);
+    return absl::InvalidArgumentError(absl::StrCat(
+        "line ", lines_.number(), ": expected ", expected, " after ", facets_, " facets; ", found));
+  }
+
+  TextLines lines_;
+  std::string_view line_, word_;
+  std::uint64_t facets_ = 0;
+};
+
+constexpr std::size_t kStlHeaderBytes = 84, kStlFacetBytes = 50;
+
+std::uint32_t StatedStlFacets(std::string_view bytes) {
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return count;
+}
+
+}  // namespace
+
+bool IsWholeBinaryStl(std::string_view bytes) {
+  return bytes.size() >= kStlHeaderBytes &&
+         bytes.size() == kStlHeaderBytes + kStlFacetBytes * StatedStlFacets(bytes);
+}
+
+absl::StatusOr<FaceCount> CheckStlContent(std::string_view bytes) {
+  if (IsWholeBinaryStl(bytes)) return FaceCount(StatedStlFacets(bytes));
+  const bool is_text = bytes.find('\0') == std::string_view::npos;
+  if (is_text && Trimmed(bytes).starts_with("solid")) return StlText(bytes).Check();
+  if (bytes.size() < kStlHeaderBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("neither a text that begins with 'solid', nor a binary STL file: it has ",
+                     bytes.size(), " bytes, and ", kStlHeaderBytes, " before its first facet"));
+  }
+  const std::uint64_t stated = StatedStlFacets(bytes);
+  return absl::InvalidArgumentError(
+      absl::StrCat("it states ", stated, " facets, ", kStlHeaderBytes + kStlFacetBytes * stated,
+                   " bytes in all, and has ", bytes.size(), " bytes (",
+                   (bytes.size() - kStlHeaderBytes) / kStlFacetBytes, " facets)"));
+}
+
+}  // namespace clearway

@@ -1,0 +1,282 @@
+// Mesh files that are cut off, or do not hold what they promise.
+#include "io/mesh_content.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <map>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "clearway/io/mesh_file.h"
+#include "support/temporary_folder.h"
+
+namespace clearway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// A tetrahedron whose vertices come after eight of another one, so that indices have two digits.
+constexpr char kObj[] =
+    "# two tetrahedra\no first\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
+    "f 3 1 4\no second\nv 2 0 0\nv 3 0 0\nv 2 1 0\nv 2 0 1\nv 2 0 2\nv 3 0 2\nv 2 1 2\nv 2 0 3\n"
+    "f 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n";
+constexpr char kVertices[] =
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n2 0 0\n3 0 0\n2 1 0\n2 0 1\n2 0 2\n3 0 2\n2 1 2\n2 0 3\n";
+constexpr char kFaces[] =
+    "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n3 8 10 9\n3 8 9 11\n"
+    "3 9 10 11\n3 8 11 10\n";
+constexpr char kPlyHeader[] =
+    "ply\nformat ascii 1.0\ncomment x\nelement vertex 12\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 12\nproperty list uchar int vertex_indices\nend_header\n";
+
+std::string AsciiPly() { return absl::StrCat(kPlyHeader, kVertices, kFaces); }
+std::string Off() { return absl::StrCat("OFF\n12 12 0\n", kVertices, kFaces); }
+
+template <class T>
+void Put(std::string& out, T value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string BinaryPly() {
+  std::string ply = absl::StrReplaceAll(
+      kPlyHeader,
+      {{"ascii", "binary_little_endian"}, {"vertex 12", "vertex 4"}, {"face 12", "face 4"}});
+  for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) Put(ply, x);
+  for (const std::array<int, 3>& face :
+       {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}}) {
+    ply += '\3';
+    for (const int corner : face) Put(ply, static_cast<std::int32_t>(corner));
+  }
+  return ply;
+}
+
+using Corners = std::array<float, 9>;
+constexpr std::array<Corners, 4> kTriangles = {
+    Corners{0, 0, 0, 0, 1, 0, 1, 0, 0}, Corners{0, 0, 0, 1, 0, 0, 0, 0, 1},
+    Corners{1, 0, 0, 0, 1, 0, 0, 0, 1}, Corners{0, 1, 0, 0, 0, 0, 0, 0, 1}};
+
+std::string AsciiStl() {
+  std::string stl = "solid a b\n";
+  for (const Corners& c : kTriangles) {
+    stl += " facet normal 0 0 nan\n  outer loop\n";
+    for (int i = 0; i < 9; i += 3) {
+      absl::StrAppend(&stl, "   vertex ", c[i], " ", c[i + 1], " ", c[i + 2], "\n");
+    }
+    stl += "  endloop\n endfacet\n";
+  }
+  return stl + "endsolid a b\n";
+}
+
+std::string BinaryStl() {
+  std::string stl = "solid, though it is binary";
+  stl.resize(80, ' ');
+  Put(stl, static_cast<std::uint32_t>(kTriangles.size()));
+  for (const Corners& corners : kTriangles) {
+    stl.append(12, '\0');
+    for (const float x : corners) Put(stl, x);
+    stl.append(2, '\0');
+  }
+  return stl;
+}
+
+// By a name whose extension is theirs.
+std::map<std::string, std::string> WholeFiles() {
+  return {{"a.obj", kObj},  {"a.ply", AsciiPly()}, {"b.ply", BinaryPly()},
+          {"a.off", Off()}, {"a.stl", AsciiStl()}, {"b.stl", BinaryStl()}};
+}
+
+absl::StatusOr<Mesh> Read(const std::string& name, const std::string& bytes) {
+  const TemporaryFolder folder;
+  return ReadMesh(folder.Write(name, bytes));
+}
+
+std::string ErrorOf(const std::string& name, const std::string& bytes) {
+  const auto mesh = Read(name, bytes);
+  EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument) << name;
+  return std::string(mesh.status().message());
+}
+
+std::string With(const std::string& text, const std::string& from, const std::string& to) {
+  EXPECT_THAT(text, HasSubstr(from));
+  return absl::StrReplaceAll(text, {{from, to}});
+}
+
+TEST(MeshContent, Empty) {
+  for (const char* extension : {".stl", ".obj", ".ply", ".off"}) {
+    const auto dut = CheckMeshContent(extension, "");
+    EXPECT_TRUE(!dut.ok() || **dut == 0) << extension;
+  }
+  EXPECT_EQ(*CheckMeshContent(".dae", ""), FaceCount());
+}
+
+TEST(MeshContent, WholeFilesAreRead) {
+  for (const auto& [name, bytes] : WholeFiles()) {
+    const auto mesh = Read(name, bytes);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), mesh->vertices.size()) << name;
+    EXPECT_EQ(**CheckMeshContent(name.substr(1), bytes), mesh->triangles.size());
+  }
+}
+
+TEST(MeshContent, AFileCutOffAtAnyByteIsRefusedOrWhole) {
+  for (const auto& [name, bytes] : WholeFiles()) {
+    const std::size_t faces = Read(name, bytes)->triangles.size();
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      const std::string cut = bytes.substr(0, size);
+      if (!CheckMeshContent(name.substr(1), cut).ok()) continue;
+      const auto mesh = Read(name, cut);
+      if (!mesh.ok() || mesh->triangles.size() == faces) continue;
+      // An OBJ file states no counts: where all vertices are used, the surface is open.
+      ASSERT_EQ(name, "a.obj") << size;
+      EXPECT_TRUE(cut.ends_with('\n'));
+    }
+  }
+}
+
+TEST(MeshContent, AnObjFileIsCutOffWhereVerticesBelongToNoFace) {
+  const std::string whole = kObj;
+  const std::string cut = whole.substr(0, whole.find("f 9 11 10"));
+  EXPECT_THAT(ErrorOf("a.obj", cut), HasSubstr("4 of 12 vertices belong to no face, the first of "
+                                               "them vertex 9: the file seems cut off"));
+  EXPECT_THAT(ErrorOf("a.obj", whole.substr(0, whole.size() - 1)),
+              HasSubstr("line 27: the last line does not end: the file seems cut off"));
+}
+
+TEST(MeshContent, ObjFacesNameVerticesThatAreThere) {
+  const std::string whole = kObj;
+  EXPECT_THAT(ErrorOf("a.obj", With(whole, "f 3 1 4", "f 3 1 99")),
+              HasSubstr("line 10: vertex 99 is named; there are 4 so far"));
+  EXPECT_THAT(ErrorOf("a.obj", With(whole, "f 3 1 4", "f 3 1 0")), HasSubstr("line 10"));
+  EXPECT_THAT(ErrorOf("a.obj", With(whole, "f 3 1 4", "f 3 1")),
+              HasSubstr("line 10: a face of 2 vertices"));
+  EXPECT_THAT(ErrorOf("a.obj", With(whole, "f 3 1 4", "ff 3 1 4")),
+              HasSubstr("line 10: 'ff' is not read"));
+  EXPECT_THAT(ErrorOf("a.obj", With(whole, "v 0 1 0\n", "v 0 1\n")), HasSubstr("line 5: expected"));
+  for (const char* same : {"f -2 -4 -1", "f 3/ 1/ 4/", "f 3 \\\n 1 4"}) {
+    const auto mesh = Read("a.obj", With(whole, "f 3 1 4", same));
+    EXPECT_TRUE(mesh.ok()) << same << mesh.status();
+  }
+}
+
+TEST(MeshContent, PlyCountsAreThoseOfTheFile) {
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "face 12", "face 13")),
+              HasSubstr("the header states 13 of element face, and the file has 12"));
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "face 12", "face 11")),
+              HasSubstr("bytes follow what the header states"));
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "vertex 12", "vertex 13")), HasSubstr("line 23"));
+  EXPECT_THAT(ErrorOf("b.ply", With(BinaryPly(), "face 4", "face 5")),
+              HasSubstr("the header states 5 of element face, and the file has 4"));
+  EXPECT_THAT(ErrorOf("b.ply", With(BinaryPly(), "face 4", "face 3")),
+              HasSubstr("13 bytes follow what the header states"));
+  EXPECT_THAT(ErrorOf("b.ply", With(BinaryPly(), "vertex 4", "vertex 5")),
+              HasSubstr("face 0 has a list of 0"));
+}
+
+TEST(MeshContent, PlyFacesNameVerticesThatAreThere) {
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "3 8 11 10", "3 8 12 10")),
+              HasSubstr("line 34: face 11 names vertex 12 of 12 (the first is 0)"));
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "3 8 11 10", "3 8 11")),
+              HasSubstr("line 34: face 11 of 12 has fewer numbers than the header states"));
+  EXPECT_THAT(ErrorOf("a.ply", With(AsciiPly(), "3 8 11 10", "3 8 11 10 9")),
+              HasSubstr("line 34: face 11 has more numbers"));
+  std::string binary = BinaryPly();
+  binary[binary.size() - 4] = 9;
+  EXPECT_THAT(ErrorOf("b.ply", binary), HasSubstr("face 3 names vertex 9 of 4"));
+}
+
+TEST(MeshContent, OffCountsAreThoseOfTheFile) {
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "12 12 0", "12 13 0")),
+              HasSubstr("it states 13 faces and has 12"));
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "12 12 0", "12 11 0")),
+              HasSubstr("more than the stated 12 vertices and 11 faces"));
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "12 12 0", "13 11 0")),
+              HasSubstr("line 15: vertex 12 of 13 has 4 numbers in 4 words, the first has 3"));
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "3 8 11 10", "3 8 12 10")),
+              HasSubstr("line 26: a face names vertex '12' of 12 (the first is 0)"));
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "3 8 11 10", "3 8 11")), HasSubstr("line 26"));
+  EXPECT_THAT(ErrorOf("a.off", With(Off(), "12 12 0", "12 12")), HasSubstr("line 2"));
+}
+
+TEST(MeshContent, AnAsciiStlFileEndsAsItBegins) {
+  const std::string whole = AsciiStl();
+  EXPECT_THAT(ErrorOf("a.stl", whole.substr(0, whole.find("endsolid"))),
+              HasSubstr("expected facet or endsolid after 4 facets; the file is cut off"));
+  EXPECT_THAT(ErrorOf("a.stl", With(whole, "  endloop\n", "")),
+              HasSubstr("line 7: expected endloop after 0 facets; found 'endfacet'"));
+  EXPECT_THAT(ErrorOf("a.stl", With(whole, "vertex 1 0 0\n", "vertex 1 0\n")),
+              HasSubstr("a number"));
+  EXPECT_EQ(Read("a.stl", whole + whole)->triangles.size(), 8u);
+}
+
+TEST(MeshContent, ABinaryStlFileHasTheSizeThatItStates) {
+  EXPECT_THAT(ErrorOf("b.stl", BinaryStl().substr(0, 84 + 120)),
+              HasSubstr("it states 4 facets, 284 bytes in all, and has 204 bytes (2 facets)"));
+  EXPECT_THAT(ErrorOf("b.stl", BinaryStl() + std::string(50, '\0')), HasSubstr("334 bytes"));
+}
+
+// One triangle with its buffer in a file of its own.
+std::string Gltf(const std::string& uri) {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 72}],
+    "buffers": [{"byteLength": 72)" +
+         uri + "}]}";
+}
+
+std::string GltfBuffer() {
+  std::string buffer;
+  for (int t = 0; t < 2; ++t) {
+    for (const float x : kTriangles[static_cast<std::size_t>(t)]) Put(buffer, x);
+  }
+  return buffer;
+}
+
+std::string Glb() {
+  std::string json = Gltf("");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string buffer = GltfBuffer();
+  std::string glb = "glTF";
+  Put(glb, std::uint32_t{2});
+  Put(glb, static_cast<std::uint32_t>(28 + json.size() + buffer.size()));
+  Put(glb, static_cast<std::uint32_t>(json.size()));
+  glb += "JSON" + json;
+  Put(glb, static_cast<std::uint32_t>(buffer.size()));
+  glb += std::string("BIN\0", 4) + buffer;
+  return glb;
+}
+
+TEST(MeshContent, GltfFilesAreReadWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::string gltf = Gltf(R"(, "uri": "a.bin")"), buffer = GltfBuffer(), glb = Glb();
+  const auto path = folder.Write("a.gltf", gltf);
+  for (std::size_t size = 0; size <= buffer.size(); ++size) {
+    folder.Write("a.bin", buffer.substr(0, size));
+    EXPECT_EQ(ReadMesh(path).ok(), size == buffer.size()) << size;
+  }
+  ASSERT_EQ(ReadMesh(path)->triangles.size(), 2u);
+  for (std::size_t size = 0; size < gltf.size(); ++size) {
+    EXPECT_FALSE(ReadMesh(folder.Write("a.gltf", gltf.substr(0, size))).ok()) << size;
+  }
+  ASSERT_EQ(Read("a.glb", glb)->triangles.size(), 2u);
+  for (std::size_t size = 0; size < glb.size(); ++size) {
+    EXPECT_FALSE(Read("a.glb", glb.substr(0, size)).ok()) << size;
+  }
+}
+
+TEST(MeshContent, ByteOrderMarksAreReadOver) {
+  for (const auto& [name, bytes] : WholeFiles()) {
+    if (name == "b.stl") continue;  // no text: its size is not what it states
+    const auto mesh = Read(name, "\xEF\xBB\xBF" + bytes);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), Read(name, bytes)->triangles.size()) << name;
+  }
+  EXPECT_THAT(ErrorOf("a.obj", "\xFF\xFEv"), HasSubstr("UTF-16"));
+}
+
+}  // namespace
+}  // namespace clearway
