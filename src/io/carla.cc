@@ -1,7 +1,6 @@
 #include "clearway/io/carla.h"
 
 #include <limits>
-#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -10,11 +9,10 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "io/carla_tables.h"
 #include "io/lidar_frames.h"
-#include "io/numbered_files.h"
+#include "io/numbered_scans.h"
 #include "io/ply_vertices.h"
 
 namespace clearway {
@@ -26,15 +24,9 @@ constexpr char kSensorTable[] = "carla_sensor.csv", kActorTable[] = "carla_actor
 
 // What points are read with. Shared by the copies of a FrameSource.
 struct Scans {
-  Path folder;
-  std::map<int, Path> files;  // by frame
+  NumberedScans files;
   std::set<ObjectId> objects, ego;
 
-  // CARLA's examples save six digits.
-  Path FileOf(int frame) const {
-    const auto file = files.find(frame);
-    return file == files.end() ? folder / absl::StrFormat("%06d.ply", frame) : file->second;
-  }
   ObjectId LabelOf(double index) const {
     // Ids that no label can be have no row either.
     if (index > std::numeric_limits<ObjectId>::max()) return kStaticLabel;
@@ -60,12 +52,8 @@ absl::Status ReadPoints(const Scans& scans, const Path& path, Frame& frame) {
   return absl::OkStatus();
 }
 
-std::string Described(const std::string& name, const LidarScans& scans, const Scans& files,
-                      const CarlaActors& actors, bool has_actors) {
-  std::size_t unposed = 0;
-  for (const auto& [frame, path] : files.files) {
-    unposed += PoseOf(scans.poses, frame) == nullptr ? 1 : 0;
-  }
+std::string Described(const std::string& name, std::size_t unposed, const CarlaActors& actors,
+                      bool has_actors) {
   std::vector<std::string> parts = {name};
   const auto add = [&parts](std::size_t count, const char* what) {
     if (count > 0) parts.push_back(absl::StrCat(count, " ", what));
@@ -97,19 +85,17 @@ absl::StatusOr<LidarFolder> OpenCarla(const Path& given, const LidarFolderOption
                            : CarlaActors();
   if (!actors.ok()) return actors.status();
   scans.boxes = std::move(actors->boxes);
-  auto files = NumberedFiles(folder, ".ply");
+  auto files = NumberedScans::In(folder, ".ply", 6);  // as CARLA's examples save them
   if (!files.ok()) return files.status();
+  const std::size_t unposed =
+      files->LeaveOutUnposed(scans.poses, folder / kSensorTable, *scans.left_out);
   const auto shared =
-      std::make_shared<const Scans>(Scans{folder, *std::move(files), actors->objects, actors->ego});
-  scans.points_of = [shared](int frame) { return shared->FileOf(frame); };
+      std::make_shared<const Scans>(Scans{*std::move(files), actors->objects, actors->ego});
+  scans.points_of = [shared](int frame) { return shared->files.FileOf(frame); };
   scans.read = [shared](const Path& path, std::span<const RecordedBox>, Frame& frame) {
     return ReadPoints(*shared, path, frame);
   };
-  for (const auto& [frame, path] : shared->files) {
-    if (PoseOf(scans.poses, frame) != nullptr) continue;
-    scans.left_out->AddFrame(absl::StrCat(path.string(), ": no row in ", kSensorTable));
-  }
-  const std::string description = Described(scans.name, scans, *shared, *actors, has_actors);
+  const std::string description = Described(scans.name, unposed, *actors, has_actors);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));
   if (result.ok()) result->frames.description = description;
   return result;

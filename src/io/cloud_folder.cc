@@ -121,14 +121,17 @@ struct Posed {
 };
 
 std::string NoPose(const Path& cloud, const Path& table_path) {
-  return absl::StrCat(cloud.string(), ": no pose in ", table_path.filename().string());
+  return absl::StrCat(cloud.string(), ": no usable pose in ", table_path.filename().string());
 }
 
 Posed PosedByStamps(const NamedClouds& named, const PoseTable& table, const Path& table_path,
                     LeftOut& left_out) {
   TumTrack track;
-  for (const auto& [pose, line] : table.rows) track.push_back({pose.stamp, pose.T_W_S, line});
-  SortByStamp(table_path, track, left_out);
+  const bool timed = !table.times_path.empty();
+  for (const TablePose& row : table.rows) {
+    track.push_back({row.pose.stamp, row.pose.T_W_S, timed ? row.stamp_line : row.line});
+  }
+  SortByStamp(timed ? table.times_path : table_path, track, left_out);
   Posed posed;
   posed.how = "at the stamps that name the clouds";
   for (std::size_t i = 0; i < named.clouds.size(); ++i) {
@@ -151,15 +154,15 @@ absl::StatusOr<Posed> PosedByRows(const NamedClouds& named, const PoseTable& tab
   const auto rows = RowsOf(named, table.row_count, folder);
   if (!rows.ok()) return rows.status();
   std::map<int, Path> of_rows;
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    if ((*rows)[i]) of_rows[static_cast<int>(*(*rows)[i])] = named.clouds[i].path;
+  for (std::size_t i = 0; i < rows->of_clouds.size(); ++i) {
+    const std::optional<std::size_t> row = rows->of_clouds[i];
+    if (row) of_rows[static_cast<int>(*row)] = named.clouds[i].path;
   }
   std::vector<TablePose> used = table.rows;
   std::erase_if(used, [&](const TablePose& row) { return !of_rows.contains(row.pose.frame); });
   Posed posed;
-  posed.how = named.naming == CloudNaming::kNumbers ? "of the rows that number the clouds"
-                                                    : "in the clouds' order";
-  posed.poses = InOrder(table_path, std::move(used), left_out);
+  posed.how = rows->by_number ? "of the rows that number the clouds" : "in the clouds' order";
+  posed.poses = InOrder(table_path, std::move(used), left_out, table.times_path);
   for (const RecordedPose& pose : posed.poses) {
     posed.clouds[pose.frame] = std::move(of_rows.at(pose.frame));
   }

@@ -124,11 +124,9 @@ absl::StatusOr<NamedClouds> NameClouds(std::vector<Path> paths) {
                                                  ": two clouds of one number"));
 }
 
-absl::StatusOr<std::vector<std::optional<std::size_t>>> RowsOf(const NamedClouds& named,
-                                                               std::size_t rows,
-                                                               const std::string& folder) {
+absl::StatusOr<CloudRows> RowsOf(const NamedClouds& named, std::size_t rows,
+                                 const std::string& folder) {
   const std::vector<NamedCloud>& clouds = named.clouds;
-  std::vector<std::optional<std::size_t>> of_clouds(clouds.size());
   const auto count = static_cast<std::int64_t>(rows);
   // Numbers are those of rows, counted from 0, if one of them is 0 or all are below their count.
   const bool numbered = named.naming == CloudNaming::kNumbers &&
@@ -139,11 +137,14 @@ absl::StatusOr<std::vector<std::optional<std::size_t>>> RowsOf(const NamedClouds
         " poses, and the clouds' names do not tell which is whose; name each by its pose's row, "
         "counted from 0, or by its stamp"));
   }
+  CloudRows result;
+  result.by_number = numbered;
+  result.of_clouds.resize(clouds.size());
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const std::size_t row = numbered ? static_cast<std::size_t>(clouds[i].number) : i;
-    if (row < rows) of_clouds[i] = row;
+    if (row < rows) result.of_clouds[i] = row;
   }
-  return of_clouds;
+  return result;
 }
 
 }  // namespace clearway

@@ -39,11 +39,15 @@ struct NamedClouds {
 // stamp or number.
 absl::StatusOr<NamedClouds> NameClouds(std::vector<std::filesystem::path> paths);
 
-// The row of a table of `rows` poses that each cloud belongs to, numbers and other names alike;
-// none for those that the table has no row for. INVALID_ARGUMENT, naming the folder, if that is not
-// clear.
-absl::StatusOr<std::vector<std::optional<std::size_t>>> RowsOf(const NamedClouds& clouds,
-                                                               std::size_t rows,
-                                                               const std::string& folder);
+// The row of a table that each cloud belongs to; none for those that it has no row for.
+struct CloudRows {
+  bool by_number = false;  // else in the clouds' order
+  std::vector<std::optional<std::size_t>> of_clouds;
+};
+
+// Of a table of `rows` poses, numbers and other names alike. INVALID_ARGUMENT, naming the folder,
+// if it is not clear which row is whose.
+absl::StatusOr<CloudRows> RowsOf(const NamedClouds& clouds, std::size_t rows,
+                                 const std::string& folder);
 
 }  // namespace clearway

@@ -142,15 +142,24 @@ std::size_t WithoutPoses(const Sequence& sequence) {
   return clusters.size();
 }
 
-// How many frames have landmarks, but no poses.
-std::size_t FramesLeftOut(const Sequence& sequence) {
-  const auto files = NumberedFiles(sequence.folder / "landmarks/left", ".txt");
-  if (!files.ok()) return 0;
-  return std::ranges::count_if(
-      *files, [&](const auto& file) { return !sequence.poses.contains(file.first); });
+// Leaves out the frames that have landmarks, but no poses, and tells how many. Those with a file of
+// poses that is bad are named already.
+absl::StatusOr<std::size_t> LeaveOutUnposed(const Sequence& sequence, LeftOut& left_out) {
+  const auto landmarks = NumberedFiles(sequence.folder / "landmarks/left", ".txt");
+  if (!landmarks.ok()) return landmarks.status();
+  const auto poses = NumberedFiles(sequence.folder / "pose", ".txt");
+  if (!poses.ok()) return poses.status();
+  std::size_t count = 0;
+  for (const auto& [frame, path] : *landmarks) {
+    if (sequence.poses.contains(frame)) continue;
+    ++count;
+    if (!poses->contains(frame)) left_out.AddFrame(path.string() + ": no usable pose in pose");
+  }
+  return count;
 }
 
-std::string Described(const std::string& name, const Sequence& sequence, const ClusterFit& fit) {
+std::string Described(const std::string& name, const Sequence& sequence, std::size_t unposed,
+                      const ClusterFit& fit) {
   std::string text =
       absl::StrCat(name, "; quaternions are ", fit.static_px ? "" : "taken for ",
                    fit.order == QuaternionOrder::kWFirst ? "w, x, y, z" : "x, y, z, w",
@@ -163,7 +172,7 @@ std::string Described(const std::string& name, const Sequence& sequence, const C
   const auto add = [&text](const char* what, std::size_t count) {
     if (count > 0) absl::StrAppend(&text, "; ", what, ": ", count);
   };
-  add("frames of landmarks without poses, left out", FramesLeftOut(sequence));
+  add("frames of landmarks without poses, left out", unposed);
   add("clusters of landmark_mapping.txt without poses", WithoutPoses(sequence));
   return text;
 }
@@ -231,7 +240,9 @@ absl::StatusOr<LidarFolder> OpenClusterSlam(const Path& given, const ClusterSlam
     if (counted->insert(static_cast<int>(frame.sequence)).second) left_out->Add(of_frame);
     return status;
   };
-  const std::string description = Described(scans.name, *sequence, *fit);
+  const auto unposed = LeaveOutUnposed(*sequence, *scans.left_out);
+  if (!unposed.ok()) return unposed.status();
+  const std::string description = Described(scans.name, *sequence, *unposed, *fit);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));
   if (result.ok()) result->frames.description = description;
   return result;

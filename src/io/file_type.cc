@@ -89,6 +89,11 @@ FileKind KindOfExtension(const std::string& extension) {
 }  // namespace
 
 FileKind KindOfBytes(std::string_view start) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (start.size() > kByteOrderMark.size() && start.starts_with(kByteOrderMark)) {
+    const FileKind marked = KindOfBytes(start.substr(kByteOrderMark.size()));
+    if (marked.type != FileType::kUnknown && marked.type != FileType::kText) return marked;
+  }
   for (const Magic& magic : kMagics) {
     if (start.size() < magic.at) continue;
     if (start.substr(magic.at).starts_with(magic.bytes)) return {magic.type, magic.name};

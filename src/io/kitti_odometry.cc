@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "clearway/base/file.h"
+#include "io/keyed_rows.h"
 #include "io/lidar_frames.h"
+#include "io/numbered_scans.h"
 #include "io/pose_table.h"
 #include "io/rigid_matrix.h"
 #include "io/velodyne_points.h"
-#include "io/word_table.h"
 
 namespace clearway {
 namespace {
@@ -41,17 +41,17 @@ Path Plain(const Path& given) {
 absl::StatusOr<Pose> ReadMount(const Path& path) {
   auto lines = ReadWordRows(path, {.last = LastLine::kMayBeOpen});
   if (!lines.ok()) return lines.status();
-  for (Row& line : lines->rows) {
-    if (line.Text(0) != "Tr:" && line.Text(0) != "Tr") continue;
-    if (line.size() != 13) return line.WrongCount("a key and 12");
-    Eigen::Matrix<double, 3, 4> matrix;
-    for (int i = 0; i < 12; ++i) {
-      matrix(i / 4, i % 4) = line.Coordinate(static_cast<std::size_t>(i) + 1);
-    }
-    if (!line.status().ok()) return line.status();
-    return PoseOfMatrix(matrix, line.where());
+  const auto found = RowOfKey(*lines, {"Tr"});
+  if (!found.ok()) return found.status();
+  if (*found == nullptr) return absl::InvalidArgumentError(path.string() + ": no Tr");
+  Row& line = **found;
+  if (line.size() != 13) return line.WrongCount("a key and 12");
+  Eigen::Matrix<double, 3, 4> matrix;
+  for (int i = 0; i < 12; ++i) {
+    matrix(i / 4, i % 4) = line.Coordinate(static_cast<std::size_t>(i) + 1);
   }
-  return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no Tr"));
+  if (!line.status().ok()) return line.status();
+  return PoseOfMatrix(matrix, line.where());
 }
 
 // SemanticKITTI has the poses in the sequence, the benchmark in a folder of their own.
@@ -67,14 +67,14 @@ absl::StatusOr<Path> PosesOf(const Path& sequence) {
                                           "; the testing half of KITTI has no poses"));
 }
 
-absl::StatusOr<std::vector<RecordedPose>> SensorPoses(const Path& sequence, LeftOut& left_out) {
+absl::StatusOr<std::vector<RecordedPose>> SensorPoses(const Path& sequence, const Path& path,
+                                                      LeftOut& left_out) {
   const auto T_C_S = ReadMount(sequence / "calib.txt");
   if (!T_C_S.ok()) return T_C_S.status();
-  const auto path = PosesOf(sequence);
-  if (!path.ok()) return path.status();
-  auto table = ReadKittiPoses(*path, sequence / "times.txt", kPeriod, left_out);
+  auto table = ReadKittiPoses(path, sequence / "times.txt", kPeriod, left_out);
   if (!table.ok()) return table.status();
-  std::vector<RecordedPose> poses = InOrder(*path, std::move(table->rows), left_out);
+  std::vector<RecordedPose> poses =
+      InOrder(path, std::move(table->rows), left_out, table->times_path);
   const Pose T_S_C = Inverse(*T_C_S);
   for (RecordedPose& pose : poses) pose.T_W_S = T_S_C * pose.T_W_S * *T_C_S;
   return poses;
@@ -132,7 +132,9 @@ absl::StatusOr<LidarFolder> OpenKittiOdometry(const Path& given,
                                               const KittiOdometryOptions& options) {
   const Path sequence = Plain(given);
   LidarScans scans;
-  auto poses = SensorPoses(sequence, *scans.left_out);
+  const auto table = PosesOf(sequence);
+  if (!table.ok()) return table.status();
+  auto poses = SensorPoses(sequence, *table, *scans.left_out);
   if (!poses.ok()) return poses.status();
   std::error_code error;
   const Path label_folder = sequence / "labels";
@@ -141,9 +143,10 @@ absl::StatusOr<LidarFolder> OpenKittiOdometry(const Path& given,
   scans.options = options.frames;
   scans.options.objects = LidarObjects::kNone;
   scans.poses = *std::move(poses);
-  scans.points_of = [folder = sequence / "velodyne"](int frame) {
-    return folder / absl::StrFormat("%06d.bin", frame);
-  };
+  const auto files = NumberedScans::In(sequence / "velodyne", ".bin", 6);
+  if (!files.ok()) return files.status();
+  files->LeaveOutUnposed(scans.poses, *table, *scans.left_out);
+  scans.points_of = [files = *files](int frame) { return files.FileOf(frame); };
   scans.read = [labelled, label_folder, parked = options.parked](
                    const Path& points, std::span<const RecordedBox>, Frame& frame) {
     const absl::Status status = ReadVelodynePoints(points, frame);

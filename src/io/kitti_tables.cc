@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <map>
@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "io/keyed_rows.h"
 #include "io/rigid_matrix.h"
-#include "io/word_table.h"
 
 namespace clearway {
 namespace {
@@ -26,18 +26,18 @@ constexpr std::int64_t kMaxNumber = 99'999'999;  // of frames and tracks
 absl::StatusOr<std::vector<double>> Matrix(WordRows& lines, const Path& path,
                                            std::initializer_list<std::string_view> keys,
                                            std::size_t count) {
-  for (Row& line : lines.rows) {
-    std::string_view key = line.Text(0);
-    if (key.ends_with(':')) key.remove_suffix(1);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
-    if (line.size() != count + 1) return line.WrongCount(absl::StrCat("a key and ", count));
-    std::vector<double> numbers;
-    for (std::size_t i = 1; i <= count; ++i) numbers.push_back(line.Coordinate(i));
-    if (!line.status().ok()) return line.status();
-    return numbers;
+  const auto found = RowOfKey(lines, keys);
+  if (!found.ok()) return found.status();
+  if (*found == nullptr) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(path.string(), ": no ", std::string(*keys.begin())));
   }
-  return absl::InvalidArgumentError(
-      absl::StrCat(path.string(), ": no ", std::string(*keys.begin())));
+  Row& line = **found;
+  if (line.size() != count + 1) return line.WrongCount(absl::StrCat("a key and ", count));
+  std::vector<double> numbers;
+  for (std::size_t i = 1; i <= count; ++i) numbers.push_back(line.Coordinate(i));
+  if (!line.status().ok()) return line.status();
+  return numbers;
 }
 
 using Matrix34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
@@ -93,38 +93,57 @@ absl::StatusOr<KittiCalibration> ReadKittiCalibration(const Path& path) {
   return KittiCalibration{*T_C_S, *T_S_I, *projection};
 }
 
+namespace {
+
+constexpr std::size_t kOxtsWords = 6;  // latitude, longitude, altitude, roll, pitch, yaw
+
 // The raw data's development kit: Mercator's projection, scaled to be true where the drive begins.
-absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const Path& path,
-                                                               LeftOut& left_out) {
-  constexpr double kEarthRadius_m = 6378137, kRadPerDeg = std::numbers::pi / 180;
-  constexpr std::size_t kFewest = 6;  // latitude, longitude, altitude, roll, pitch, yaw
-  auto lines = ReadWordRows(path, {}, /*blank_lines=*/true);
-  if (!lines.ok()) return lines.status();
-  std::vector<std::optional<Pose>> T_W_I;
-  std::optional<std::pair<double, Eigen::Vector3d>> origin;  // scale, and the first place
-  const auto visit = [&](Row& row) {
-    if (row.size() < kFewest) return row.WrongCount("30");
-    double value[kFewest];
-    for (std::size_t i = 0; i < kFewest; ++i) value[i] = row.Coordinate(i);
-    row.CheckNumbers(kFewest, row.size());
-    if (std::abs(value[0]) >= 90) row.Fail(0, "a latitude");
-    if (!row.status().ok()) return row.status();
+class DrivePoses {
+ public:
+  Pose PoseOf(const std::array<double, kOxtsWords>& value) {
+    constexpr double kEarthRadius_m = 6378137, kRadPerDeg = std::numbers::pi / 180;
     const double north_rad = value[0] * kRadPerDeg;
-    const double scale_m = kEarthRadius_m * (origin ? origin->first : std::cos(north_rad));
+    const double scale_m = kEarthRadius_m * (origin_ ? origin_->first : std::cos(north_rad));
     const Eigen::Vector3d place(scale_m * value[1] * kRadPerDeg,
                                 scale_m * std::log(std::tan(std::numbers::pi / 4 + north_rad / 2)),
                                 value[2]);
-    if (!origin) origin = {std::cos(north_rad), place};
+    if (!origin_) origin_ = {std::cos(north_rad), place};
     const Eigen::Quaterniond turn = Eigen::AngleAxisd(value[5], Eigen::Vector3d::UnitZ()) *
                                     Eigen::AngleAxisd(value[4], Eigen::Vector3d::UnitY()) *
                                     Eigen::AngleAxisd(value[3], Eigen::Vector3d::UnitX());
-    T_W_I.back() = Pose{turn, place - origin->second};
-    return absl::OkStatus();
+    return Pose{turn, place - origin_->second};
+  }
+
+ private:
+  std::optional<std::pair<double, Eigen::Vector3d>> origin_;  // scale, and the first place
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const Path& path,
+                                                               LeftOut& left_out) {
+  auto lines = ReadWordRows(path, {}, /*blank_lines=*/true);
+  if (!lines.ok()) return lines.status();
+  std::vector<std::optional<Pose>> T_W_I;
+  DrivePoses drive;
+  const auto visit = [&](Row& row) {
+    if (row.size() < kOxtsWords) return row.WrongCount("30");
+    std::array<double, kOxtsWords> value;
+    for (std::size_t i = 0; i < kOxtsWords; ++i) value[i] = row.Coordinate(i);
+    row.CheckNumbers(kOxtsWords, row.size());
+    if (std::abs(value[0]) >= 90) row.Fail(0, "a latitude");
+    if (row.status().ok()) T_W_I.back() = drive.PoseOf(value);
+    return row.status();
   };
   RowPolicy policy(left_out);
   for (Row& row : lines->rows) {
     T_W_I.emplace_back();
-    if (auto status = policy.Visit(row, visit); !status.ok()) return status;
+    if (row.size() == 0) {
+      // Nothing that could be of another format, even in the first line.
+      left_out.AddRow(absl::StrCat(row.where(), ": the line is empty; its frame has no pose"));
+    } else if (auto status = policy.Visit(row, visit); !status.ok()) {
+      return status;
+    }
   }
   if (T_W_I.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no frame"));
@@ -180,6 +199,7 @@ absl::StatusOr<KittiLabels> ReadKittiLabels(const Path& path, LeftOut& left_out)
   const auto visit = [&](Row& row) {
     const LabelColumns columns(row);
     if (!columns.HasAll(row)) return row.WrongCount("17, or 18 with a score");
+    row.CheckNumbers(0, 2);
     row.CheckNumbers(columns.numbers, row.size());
     if (row.Text(2) == "DontCare") {
       const std::size_t image = columns.numbers + 3;

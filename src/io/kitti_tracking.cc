@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "clearway/base/file.h"
 #include "io/kitti_tables.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
+#include "io/numbered_scans.h"
 #include "io/velodyne_points.h"
 
 namespace clearway {
@@ -155,7 +155,10 @@ absl::StatusOr<LidarFolder> OpenKittiTracking(const Path& scans,
   if (!boxes.ok()) return boxes.status();
   result.boxes = *std::move(boxes);
   result.of_gps = true;
-  result.points_of = [folder](int frame) { return folder / absl::StrFormat("%06d.bin", frame); };
+  const auto files = NumberedScans::In(folder, ".bin", 6);
+  if (!files.ok()) return files.status();
+  files->LeaveOutUnposed(result.poses, root / "oxts" / table, *result.left_out);
+  result.points_of = [files = *files](int frame) { return files.FileOf(frame); };
   const auto labeller =
       std::make_shared<const Labeller>(*calibration, std::move(labels->unlabelled));
   result.read = [labeller](const Path& points, std::span<const RecordedBox> in, Frame& frame) {

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "clearway/base/file.h"
 #include "io/lidar_frames.h"
 #include "io/lidar_tables.h"
+#include "io/numbered_scans.h"
 
 namespace clearway {
 namespace {
@@ -22,10 +22,6 @@ constexpr std::size_t kRecordBytes = 14;  // float32 x, y, z, int16 label
 constexpr std::uint64_t kMaxPointBytes = kRecordBytes * 20'000'000;
 
 using Path = std::filesystem::path;
-
-Path PointsPath(const Path& folder, int frame) {
-  return folder / "points" / absl::StrFormat("%04d.bin", frame);
-}
 
 absl::Status ReadPoints(const Path& path, Frame& frame) {
   const absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxPointBytes);
@@ -91,11 +87,15 @@ absl::StatusOr<LidarFolder> OpenLidarFolder(const Path& folder, const LidarFolde
   const absl::StatusOr<std::string> suffix = TableSuffix(folder, options.poses);
   if (!suffix.ok()) return suffix.status();
   const auto left_out = std::make_shared<LeftOut>();
-  const auto poses = ReadLidarPoses(folder / absl::StrCat("poses", *suffix, ".csv"), *left_out);
+  const Path table = folder / absl::StrCat("poses", *suffix, ".csv");
+  const auto poses = ReadLidarPoses(table, *left_out);
   if (!poses.ok()) return poses.status();
   const auto boxes =
       ReadLidarBoxes(folder / absl::StrCat("objects", *suffix, ".csv"), *poses, *left_out);
   if (!boxes.ok()) return boxes.status();
+  const auto scans = NumberedScans::In(folder / "points", ".bin", 4);
+  if (!scans.ok()) return scans.status();
+  scans->LeaveOutUnposed(*poses, table, *left_out);
 
   return FramesOf({.name = absl::StrCat("LiDAR folder ", folder.string()),
                    .options = options,
@@ -103,7 +103,7 @@ absl::StatusOr<LidarFolder> OpenLidarFolder(const Path& folder, const LidarFolde
                    .boxes = *boxes,
                    .of_gps = *suffix == kOxtsSuffix,
                    .left_out = left_out,
-                   .points_of = [folder](int frame) { return PointsPath(folder, frame); },
+                   .points_of = [files = *scans](int frame) { return files.FileOf(frame); },
                    .read = [](const Path& points, std::span<const RecordedBox>,
                               Frame& frame) { return ReadPoints(points, frame); }});
 }

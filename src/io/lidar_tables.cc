@@ -76,29 +76,32 @@ std::vector<bool> Ascending(const std::vector<TablePose>& rows) {
 }  // namespace
 
 std::vector<RecordedPose> InOrder(const std::filesystem::path& path, std::vector<TablePose> rows,
-                                  LeftOut& left_out) {
+                                  LeftOut& left_out, const std::filesystem::path& times_path) {
   std::ranges::stable_sort(rows, {}, [](const TablePose& row) { return row.pose.frame; });
-  const auto leave_out = [&](const TablePose& row, const std::string& why) {
-    left_out.AddRow(absl::StrCat(path.string(), ", line ", row.line, ": ", why));
+  const auto leave_out = [&](const std::filesystem::path& table, int line, const std::string& why) {
+    left_out.AddRow(absl::StrCat(table.string(), ", line ", line, ": ", why));
   };
   std::vector<TablePose> single;
   for (TablePose& row : rows) {
     if (single.empty() || single.back().pose.frame != row.pose.frame) {
       single.push_back(std::move(row));
     } else {
-      leave_out(row, absl::StrCat("a second row of frame ", row.pose.frame, "; the first: line ",
-                                  single.back().line));
+      leave_out(path, row.line,
+                absl::StrCat("a second row of frame ", row.pose.frame, "; the first: line ",
+                             single.back().line));
     }
   }
   const std::vector<bool> kept = Ascending(single);
   std::vector<RecordedPose> poses;
+  const bool timed = !times_path.empty();
   for (std::size_t i = 0; i < single.size(); ++i) {
+    const TablePose& row = single[i];
     if (kept[i]) {
-      poses.push_back(single[i].pose);
+      poses.push_back(row.pose);
     } else {
-      leave_out(single[i], absl::StrCat("frame ", single[i].pose.frame, " at ",
-                                        ToNanoseconds(single[i].pose.stamp),
-                                        " ns: stamps must ascend with the frames"));
+      leave_out(timed ? times_path : path, timed ? row.stamp_line : row.line,
+                absl::StrCat("frame ", row.pose.frame, " at ", ToNanoseconds(row.pose.stamp),
+                             " ns: stamps must ascend with the frames"));
     }
   }
   return poses;

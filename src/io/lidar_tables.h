@@ -29,11 +29,12 @@ absl::StatusOr<std::vector<RecordedBox>> ReadLidarBoxes(const std::filesystem::p
 struct TablePose {
   RecordedPose pose;
   int line = 0;
+  int stamp_line = 0;  // of a table of stamps beside it
 };
 // Sorts by frames and leaves out second rows of a frame and the fewest others without which stamps
-// ascend. `path` names the table.
+// ascend. `path` names the table, `times_path` that of the stamps if it is another.
 std::vector<RecordedPose> InOrder(const std::filesystem::path& path, std::vector<TablePose> rows,
-                                  LeftOut& left_out);
+                                  LeftOut& left_out, const std::filesystem::path& times_path = {});
 
 // Boxes of a table, by frame and id.
 class BoxRows {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "absl/strings/str_cat.h"
 #include "io/parse_number.h"
@@ -23,6 +24,9 @@ class HeaderParser {
 
   absl::StatusOr<OctomapHeader> Parse() {
     // The binary magic is not a prefix of the other, nor the other way round.
+    if (rest_.starts_with("\xEF\xBB\xBF")) {
+      return Fail("begins with a UTF-8 byte order mark: a text editor changed the binary file");
+    }
     if (rest_.starts_with(kBinaryMagic)) {
       header_.format = OctomapFormat::kBinary;
     } else if (rest_.starts_with(kFullMagic)) {
@@ -62,16 +66,29 @@ class HeaderParser {
   }
 
   absl::Status Entry(std::string_view key) {
-    if (key == "id") {
-      header_.tree_type = std::string(TakeWord());
-    } else if (key == "size") {
-      has_size_ = ParseWhole(TakeWord(), header_.nodes);
-      if (!has_size_) return Fail("size is not a number of nodes");
-    } else if (key == "res") {
-      if (!ParseWhole(TakeWord(), header_.resolution_m)) return Fail("res is not a number");
-    } else {
+    if (key != "id" && key != "size" && key != "res") {
       if (key.front() != '#') header_.unknown_keys.push_back(Shown(key));
       SkipLine();
+      return absl::OkStatus();
+    }
+    const std::string_view value = TakeWord();
+    const auto [first, is_new] = values_.try_emplace(key, value);
+    if (!is_new && first->second != value) {
+      return Fail(absl::StrCat("a second ", std::string(key), ", '", Shown(value),
+                               "'; the first is '", Shown(first->second), "'"));
+    }
+    const auto is_not = [&](const char* expected) {
+      return Fail(absl::StrCat(std::string(key), ": '", Shown(value), "' is not a ", expected));
+    };
+    if (key == "id") {
+      header_.tree_type = std::string(value);
+    } else if (key == "size") {
+      if (!ParseWhole(value, header_.nodes)) return is_not("number of nodes");
+    } else {
+      double& res_m = header_.resolution_m;
+      if (!ParseWhole(value, res_m) || !std::isfinite(res_m) || !(res_m > 0)) {
+        return is_not("finite number above 0");
+      }
     }
     return absl::OkStatus();
   }
@@ -88,21 +105,19 @@ class HeaderParser {
         header_.tree_type != "OcTreeStamped") {
       return Fail("id is none of OcTree, ColorOcTree, OcTreeStamped");
     }
-    if (!has_size_) return Fail("no size before data");
-    if (!(header_.resolution_m > 0) || !std::isfinite(header_.resolution_m)) {
-      return Fail("res is missing or not above 0");
-    }
+    if (!values_.contains("size")) return Fail("no size before data");
+    if (!values_.contains("res")) return Fail("no res before data");
     return header_;
   }
 
-  absl::Status Fail(const char* why) const {
+  absl::Status Fail(const std::string& why) const {
     return absl::InvalidArgumentError(absl::StrCat(name_, ", line ", line_, ": ", why));
   }
 
   const std::string& name_;
   std::string_view bytes_, rest_;
   OctomapHeader header_;
-  bool has_size_ = false;
+  std::map<std::string_view, std::string_view> values_;
   int line_ = 1;
 };
 

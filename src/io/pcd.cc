@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -67,6 +68,10 @@ absl::StatusOr<Wanted> FindWanted(const std::string& name, const PcdHeader& head
                        absl::StrJoin(header.fields, " ",
                                      [](std::string* out, const PcdField& f) { *out += f.name; })));
     }
+    if (std::ranges::count(header.fields, wanted_name, &PcdField::name) > 1) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(name, ": field ", wanted_name, " occurs twice"));
+    }
     if (field->count != 1 || (wanted.size() < 3 && field->type != 'F')) {
       return absl::InvalidArgumentError(
           absl::StrCat(name, ": field ", wanted_name, " has ", field->count, " numbers of type ",
@@ -121,9 +126,10 @@ absl::Status WrongSize(const std::string& name, std::size_t bytes, const PcdHead
                                                  bytes < expected ? "; the file is cut off" : ""));
 }
 
-// Writers that map pages leave zeros behind the points.
+// Writers that map pages, as PCL's once did, leave zeros behind the points, up to the page's end.
 bool IsPadding(std::string_view bytes) {
-  return bytes.find_first_not_of('\0') == std::string_view::npos;
+  constexpr std::size_t kLargestPage = 65'536;
+  return bytes.size() < kLargestPage && bytes.find_first_not_of('\0') == std::string_view::npos;
 }
 
 absl::StatusOr<CloudPoints> ReadBinary(const std::string& name, std::string_view bytes,

@@ -56,6 +56,8 @@ class Parser {
     constexpr std::string_view kKeys[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                           "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
     constexpr std::size_t kLongestLine = 1 << 20;
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (bytes.starts_with(kByteOrderMark)) lines_.end = kByteOrderMark.size();
     while (!Has("DATA")) {
       const std::string_view rest = bytes.substr(lines_.end);
       const std::size_t length = rest.substr(0, kLongestLine).find('\n');

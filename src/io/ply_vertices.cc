@@ -88,6 +88,7 @@ struct Header {
 };
 
 void TakeFormat(const std::vector<std::string_view>& words, Reader& reader, Header& header) {
+  if (header.format) return reader.Fail("a second format");
   constexpr std::pair<std::string_view, Format> kFormats[] = {
       {"ascii", Format::kAscii},
       {"binary_little_endian", Format::kLittleEndian},
@@ -186,6 +187,8 @@ Places PlacesOf(std::span<const PlyProperty> wanted, const Header& header, Reade
     if (found == header.properties.end()) {
       reader.Fail(absl::StrCat("the header ends without a property ", wanted[w].name, "; it has ",
                                absl::StrJoin(header.properties, " ")));
+    } else if (std::ranges::count(header.properties, wanted[w].name) > 1) {
+      reader.Fail(absl::StrCat("the header has property ", wanted[w].name, " twice"));
     } else {
       places[static_cast<std::size_t>(found - header.properties.begin())] = w;
     }

@@ -35,7 +35,8 @@ absl::StatusOr<std::size_t> VisitNumbered(
 }
 
 absl::StatusOr<PoseTable> ReadTumPoses(const Path& path, LeftOut& left_out) {
-  PoseTable table{{}, 0, true};
+  PoseTable table;
+  table.stamped = true;
   const auto visit = [&](Row& row, int number) {
     if (row.size() != kTumWords) return row.WrongCount("timestamp tx ty tz qx qy qz qw");
     const RecordedPose pose{number, row.Stamp(0), row.PoseFrom(1)};
@@ -71,14 +72,20 @@ absl::StatusOr<PoseTable> ReadMatrices(const Path& path, LeftOut& left_out) {
   return table;
 }
 
+struct LineTime {
+  Time stamp;
+  int line = 0;
+};
+
 // None for bad rows.
-absl::StatusOr<std::vector<std::optional<Time>>> ReadTimes(const Path& path, LeftOut& left_out) {
-  std::vector<std::optional<Time>> times;
+absl::StatusOr<std::vector<std::optional<LineTime>>> ReadTimes(const Path& path,
+                                                               LeftOut& left_out) {
+  std::vector<std::optional<LineTime>> times;
   const auto visit = [&](Row& row, int number) {
     times.resize(static_cast<std::size_t>(number) + 1);
     if (row.size() != 1) return row.WrongCount("one, seconds");
     const Time stamp = row.Stamp(0);
-    if (row.status().ok()) times.back() = stamp;
+    if (row.status().ok()) times.back() = LineTime{stamp, row.line()};
     return row.status();
   };
   const auto count = VisitNumbered(path, {.last = LastLine::kMayBeOpen}, left_out, visit);
@@ -115,6 +122,7 @@ absl::StatusOr<PoseTable> ReadKittiPoses(const Path& path, const Path& times_pat
     for (TablePose& row : table->rows) row.pose.stamp = Time() + row.pose.frame * period;
     return table;
   }
+  table->times_path = times_path;
   const auto times = ReadTimes(times_path, left_out);
   if (!times.ok()) return times.status();
   if (times->size() < table->row_count) {
@@ -123,9 +131,11 @@ absl::StatusOr<PoseTable> ReadKittiPoses(const Path& path, const Path& times_pat
                                                    " poses of ", path.string()));
   }
   std::erase_if(table->rows, [&](TablePose& row) {
-    const std::optional<Time> stamp = (*times)[static_cast<std::size_t>(row.pose.frame)];
-    row.pose.stamp = stamp.value_or(Time());
-    return !stamp.has_value();
+    const std::optional<LineTime>& time = (*times)[static_cast<std::size_t>(row.pose.frame)];
+    if (!time) return true;
+    row.pose.stamp = time->stamp;
+    row.stamp_line = time->line;
+    return false;
   });
   return table;
 }

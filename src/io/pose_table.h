@@ -15,7 +15,8 @@ struct PoseTable {
   // Stamps may come in any order.
   std::vector<TablePose> rows;
   std::size_t row_count = 0;
-  bool stamped = false;  // else row k is at k times the period that was given
+  bool stamped = false;                   // else row k is at k times the period that was given
+  std::filesystem::path times_path = {};  // of the stamps, if it is another file
 };
 
 // Lines of 8 words, TUM's "timestamp tx ty tz qx qy qz qw", or of 12, KITTI's matrices 3x4 row by

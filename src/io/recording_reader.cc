@@ -41,8 +41,10 @@ absl::Status CheckWhole(const Path& path) {
   const std::string_view magic = std::string_view(*start).substr(0, kMagic.size());
   if (start->empty() || !kMagic.starts_with(magic)) {
     const std::string kind = KindOfFile(path).name;
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": not a recording",
-                                                   kind.empty() ? "" : "; the file is ", kind));
+    const bool may_be_cloud = LowerExtension(path) == ".pcd" || LowerExtension(path) == ".ply";
+    return absl::InvalidArgumentError(absl::StrCat(
+        path.string(), ": not a recording", kind.empty() ? "" : "; the file is ", kind,
+        may_be_cloud ? "; of point clouds name the folder, which has a table of their poses" : ""));
   }
   if (start->size() < kHeaderBytes) {
     return absl::DataLossError(absl::StrCat(path.string(), ": cut off: only ", start->size(),

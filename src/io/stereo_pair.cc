@@ -16,7 +16,9 @@ constexpr double kLeastDisparity_px = 1, kLeastBaseline_m = 1e-4;
 
 bool IsPinhole(const Projection& projection) {
   constexpr double kTolerance = 1e-6;
-  return projection.allFinite() && projection(0, 0) > 0 && projection(1, 1) > 0 &&
+  const auto is_focal_length = [](double f_px) { return f_px >= 1 && f_px <= 1e6; };
+  return projection.allFinite() && is_focal_length(projection(0, 0)) &&
+         is_focal_length(projection(1, 1)) &&
          projection.row(2).head<3>().isApprox(Eigen::RowVector3d::UnitZ(), kTolerance) &&
          std::abs(projection(1, 0)) <= kTolerance;
 }
@@ -31,10 +33,10 @@ absl::StatusOr<StereoPair> StereoPair::Make(const Projection& left, const Projec
                                             const std::string& where) {
   for (const auto& [name, projection] : {std::pair("first", &left), std::pair("second", &right)}) {
     if (IsPinhole(*projection)) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat(where, ": the ", name,
-                     " matrix is no pinhole's that looks along z: f x above 0, 0, c x; 0, f y "
-                     "above 0, c y; 0, 0, 1"));
+    return absl::InvalidArgumentError(absl::StrCat(
+        where, ": the ", name,
+        " matrix is no pinhole's that looks along z: f x, 0, c x; 0, f y, c y; 0, 0, 1, "
+        "with f x and f y from 1 to 1000000"));
   }
   const double baseline_m = (CenterOf(right) - CenterOf(left)).norm();
   if (!(baseline_m >= kLeastBaseline_m)) {

@@ -74,11 +74,30 @@ absl::Status ReadMask(const Path& path, const Path& depth_path, DepthImage& imag
   return absl::OkStatus();
 }
 
+// The first image that can be read: of its size are the others, since they have one camera.
+struct Sample {
+  Path path;
+  std::uint32_t width = 0, height = 0;  // 0 if there is none
+};
+
+Sample FirstOf(const Images& images, const DepthImage& camera) {
+  for (const auto& [number, path] : images.depth) {
+    const absl::StatusOr<DepthImage> image = ReadDepth(path, camera);
+    if (image.ok()) return {path, image->width, image->height};
+  }
+  return {};
+}
+
 // Sets points and labels.
-absl::Status ReadPoints(const Path& depth_path, const Path* mask_path, const DepthImage& camera,
-                        Frame& frame) {
+absl::Status ReadPoints(const Path& depth_path, const Path* mask_path, const Sample& sample,
+                        const DepthImage& camera, Frame& frame) {
   absl::StatusOr<DepthImage> image = ReadDepth(depth_path, camera);
   if (!image.ok()) return image.status();
+  if (image->width != sample.width || image->height != sample.height) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        depth_path.string(), ": ", image->width, " x ", image->height, " pixels; ",
+        sample.path.string(), ", of the same camera, has ", sample.width, " x ", sample.height));
+  }
   if (mask_path != nullptr) {
     if (auto status = ReadMask(*mask_path, depth_path, *image); !status.ok()) return status;
   }
@@ -214,10 +233,11 @@ absl::StatusOr<LidarFolder> OpenTumRgbd(const Path& given, const TumRgbdOptions&
   *scans.left_out = tables->left_out;
   scans.left_out->Add(images->left_out);
   scans.points_of = [images](int frame) { return images->depth.at(frame); };
-  scans.read = [images, camera = tables->camera](const Path& points, std::span<const RecordedBox>,
-                                                 Frame& frame) {
+  scans.read = [images, camera = tables->camera, sample = FirstOf(*images, tables->camera)](
+                   const Path& points, std::span<const RecordedBox>, Frame& frame) {
     const auto mask = images->masks.find(static_cast<int>(frame.sequence));
-    return ReadPoints(points, mask == images->masks.end() ? nullptr : &mask->second, camera, frame);
+    return ReadPoints(points, mask == images->masks.end() ? nullptr : &mask->second, sample, camera,
+                      frame);
   };
   const std::string description = Described(scans.name, *tables, *images);
   absl::StatusOr<LidarFolder> result = FramesOf(std::move(scans));

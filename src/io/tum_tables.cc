@@ -66,13 +66,15 @@ absl::StatusOr<DepthImage> ReadCamera(const Path& path) {
         absl::StrCat(path.string(), ": ", lines->rows.size(),
                      " lines, expected one: fx fy cx cy [depth_factor]"));
   }
+  constexpr double kMost_px = 1e6;
   Row& line = lines->rows.front();
   if (line.size() != 4 && line.size() != 5) {
     return line.WrongCount("fx fy cx cy [depth_factor]");
   }
   const DepthImage camera =
-      CameraOf(line.Positive(0), line.Positive(1), line.Coordinate(2), line.Coordinate(3),
-               line.size() == 5 ? line.Positive(4) : kDepthFactor);
+      CameraOf(line.NumberBetween(0, 1, kMost_px), line.NumberBetween(1, 1, kMost_px),
+               line.NumberWithin(2, kMost_px), line.NumberWithin(3, kMost_px),
+               line.size() == 5 ? line.NumberBetween(4, 1e-3, 1e6) : kDepthFactor);
   if (!line.status().ok()) return line.status();
   return camera;
 }

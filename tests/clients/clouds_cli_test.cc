@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli_server.h"
+#include "io/lidar_example.h"
 #include "io/pcd_example.h"
 #include "support/temporary_folder.h"
 
@@ -92,6 +93,25 @@ TEST(CloudsCli, FlagsOfOtherSourcesAreRefused) {
   EXPECT_THAT(refused({"info", "sim:small", "--label-field", "label"}), HasSubstr("--label-field"));
   EXPECT_THAT(refused({"info", pcd, "--pose-table", "nowhere.txt"}), HasSubstr("nowhere.txt"));
   EXPECT_EQ(refused({"info", pcd, "--label-field", ""}).empty(), false);
+}
+
+TEST(CloudsCli, AScanWithoutAPoseIsNamed) {
+  const TemporaryFolder folder;
+  WriteSemanticKitti(folder);
+  folder.Write("sequences/00/velodyne/000002.bin", "");
+  const std::string path = (folder / "sequences/00").string();
+  const Finished info = RunClearway({"info", path});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, AllOf(HasSubstr("left out    1 frame of the input is left out:\n"),
+                              HasSubstr("velodyne/000002.bin: no usable pose in poses.txt\n")));
+  const json left_out = json::parse(RunClearway({"info", path, "--json"}).out)["left_out"];
+  EXPECT_EQ(left_out["frames"], 1);
+  const TemporaryFolder with_boxes;
+  WriteExample(with_boxes);
+  with_boxes.Write("points/0007.bin", "");
+  EXPECT_THAT(RunClearway({"evaluate", with_boxes.path().string()}).err,
+              AllOf(HasSubstr("warning: 1 frame of the input is left out:\n"),
+                    HasSubstr("points/0007.bin: no usable pose in poses_icp.csv\n")));
 }
 
 TEST(CloudsCli, AnUnknownFolderIsToldTheLayouts) {

@@ -90,6 +90,7 @@ TEST_F(CloudFolder, OtherNumbersAreTakenInTheirOrder) {
   folder_.Write("poses.txt", kTum);
   WriteClouds({"8.pcd", "9.pcd", "10.pcd"});
   EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(2, 1), Place(3, 2)));
+  EXPECT_THAT(Open()->frames.description, HasSubstr("poses of poses.txt in the clouds' order"));
   folder_.Write("11.pcd", BinaryPcd({}));
   EXPECT_THAT(ErrorOf(), HasSubstr("4 clouds, but 3 poses, and the clouds' names do not tell"));
 }
@@ -153,7 +154,7 @@ TEST_F(CloudFolder, ABadRowKeepsTheNumbersOfTheOthers) {
   EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 2)));
   EXPECT_THAT(Open()->frames.left_out->reasons,
               ElementsAre(HasSubstr("poses.txt, line 2, word 1: 'nan' is not a finite number"),
-                          HasSubstr("1.pcd: no pose in poses.txt")));
+                          HasSubstr("1.pcd: no usable pose in poses.txt")));
 }
 
 TEST_F(CloudFolder, RowsOfBadTimesAreLeftOut) {
@@ -163,9 +164,12 @@ TEST_F(CloudFolder, RowsOfBadTimesAreLeftOut) {
   EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 2)));
   folder_.Write("times.txt", "0.5\n0.6\n0.6\n");
   EXPECT_EQ(Places().size(), 2u);
-  EXPECT_THAT(Open()->frames.left_out->reasons,
-              ElementsAre(HasSubstr("600000000 ns: stamps must ascend with the frames"),
-                          HasSubstr("1.pcd: no pose in poses.txt")));
+  EXPECT_THAT(
+      Open()->frames.left_out->reasons,
+      ElementsAre(
+          HasSubstr(
+              "times.txt, line 2: frame 1 at 600000000 ns: stamps must ascend with the frames"),
+          HasSubstr("1.pcd: no usable pose in poses.txt")));
 }
 
 TEST_F(CloudFolder, TablesMayHaveAByteOrderMarkAndCommas) {

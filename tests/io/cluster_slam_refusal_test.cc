@@ -61,6 +61,8 @@ TEST_F(ClusterSlamRefusal, SaysWhatIsWrongWhere) {
               HasSubstr("the first matrix is no pinhole's"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"500", "-500"}})),
               HasSubstr("the first matrix is no pinhole's"));
+  EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"500", "1e-320"}})),
+              HasSubstr("with f x and f y from 1 to 1000000"));
   EXPECT_THAT(ErrorWith("intrinsic.txt", absl::StrReplaceAll(cameras, {{"320 0", "320"}})),
               HasSubstr("line 1: 3 words, expected 4 numbers"));
 }

@@ -78,6 +78,9 @@ TEST_F(ClusterSlam, OneFrameTellsNoOrder) {
   EXPECT_THAT(dut->frames.description,
               HasSubstr("quaternions are taken for w, x, y, z (too few static landmarks to tell); "
                         "frames of landmarks without poses, left out: 7"));
+  EXPECT_EQ(dut->frames.left_out->frames, 7u);
+  EXPECT_THAT(dut->frames.left_out->reasons[0],
+              HasSubstr("landmarks/left/0001.txt: no usable pose in pose"));
   EXPECT_THAT(dut->frames.description, Not(HasSubstr("pixels")));
 }
 

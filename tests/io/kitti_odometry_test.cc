@@ -144,6 +144,25 @@ TEST_F(KittiOdometry, WithoutTimesFramesAreATenthOfASecondApart) {
   EXPECT_EQ(Open()->frames.read(2)->stamp, TimeFromNanoseconds(200'000'000));
 }
 
+TEST_F(KittiOdometry, AScanWithoutAPoseIsLeftOutAndNamed) {
+  Write("velodyne/000003.bin", PointsOf({{1, 1, 1}}));
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 3u);
+  EXPECT_EQ(dut->frames.left_out->frames, 1u);
+  EXPECT_THAT(dut->frames.left_out->reasons,
+              ElementsAre(HasSubstr("velodyne/000003.bin: no usable pose in poses.txt")));
+}
+
+TEST_F(KittiOdometry, AStampThatDoesNotAscendIsNamedWithItsLine) {
+  Write("times.txt", "\n0.0\n0.3\n0.2\n");
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 2u);
+  EXPECT_THAT(dut->frames.left_out->reasons[0],
+              HasSubstr("08/times.txt, line 3: frame 1 at 300000000 ns: stamps must ascend"));
+}
+
 TEST_F(KittiOdometry, Refusals) {
   WriteLabels();
   Write("labels/000001.label", LabelsOf({0, 0}));
@@ -161,6 +180,11 @@ TEST_F(KittiOdometry, Refusals) {
   EXPECT_THAT(ErrorOf(), HasSubstr("calib.txt: no Tr"));
   Write("calib.txt", "Tr: 1 2 3\n");
   EXPECT_THAT(ErrorOf(), HasSubstr("calib.txt, line 1: 4 words, expected a key and 12"));
+  Write("calib.txt", std::string(kCalib) + "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.4\n");
+  EXPECT_THAT(ErrorOf(),
+              HasSubstr("calib.txt, line 3: a second Tr of other values; the first: line 2"));
+  Write("calib.txt", std::string(kCalib) + "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.3\n");
+  EXPECT_TRUE(Open({{.allow_missing_points = true}}).ok());
   Write("calib.txt", "Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n");
   EXPECT_THAT(ErrorOf(), HasSubstr("calib.txt, line 1"));
   Write("calib.txt", kCalib);

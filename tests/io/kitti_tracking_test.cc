@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
 #include "support/temporary_folder.h"
@@ -177,6 +178,8 @@ TEST_F(KittiTracking, LeavesBadRowsOutNamingThem) {
   // Columns that nothing is read from are checked, too, or shifted ones would pass.
   EXPECT_THAT(LeftOutWith(file, labels + "1 9 A bus 0 -1.57 4 1 5 2 2 2 4 -2 2 9 -1.57\n"),
               HasSubstr("line 5, word 4: 'bus' is not a number"));
+  EXPECT_THAT(LeftOutWith(file, absl::StrReplaceAll(labels, {{"0 -1 Dont", "0 no Dont"}})),
+              HasSubstr("line 2, word 2: 'no' is not a number"));
 }
 
 TEST_F(KittiTracking, FramesWithoutAPoseAreLeftOut) {
@@ -189,7 +192,32 @@ TEST_F(KittiTracking, FramesWithoutAPoseAreLeftOut) {
   EXPECT_EQ(dut->poses[0].stamp, TimeFromNanoseconds(100'000'000));
   EXPECT_THAT(dut->frames.left_out->reasons,
               ElementsAre(HasSubstr("oxts/0003.txt, line 1, word 3: 'nan'"),
-                          HasSubstr("label_02/0003.txt, line 1: frame 0 has no pose in oxts")));
+                          HasSubstr("label_02/0003.txt, line 1: frame 0 has no pose in oxts"),
+                          HasSubstr("0003/000000.bin: no usable pose in 0003.txt")));
+}
+
+TEST_F(KittiTracking, ScansBehindTheLastPoseAreLeftOutAndNamed) {
+  folder_.Write("velodyne/0003/000002.bin", PointBytes({}));
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 2u);
+  EXPECT_EQ(dut->frames.left_out->frames, 1u);
+  EXPECT_THAT(dut->frames.left_out->reasons,
+              ElementsAre(HasSubstr("0003/000002.bin: no usable pose in 0003.txt")));
+}
+
+TEST_F(KittiTracking, AnEmptyLineOfOxtsIsAFrameWithoutAPose) {
+  folder_.Write("oxts/0003.txt", absl::StrCat("\n", Oxts(1, 0)));
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->poses.size(), 1u);
+  EXPECT_EQ(dut->poses[0].frame, 1);
+  EXPECT_TRUE(dut->poses[0].T_W_S.translation.isApprox(kSensorInImu, 1e-9));
+  EXPECT_EQ(dut->frames.left_out->rows, 2u);  // its box, too
+  EXPECT_THAT(dut->frames.left_out->reasons[0],
+              HasSubstr("oxts/0003.txt, line 1: the line is empty; its frame has no pose"));
+  // What then comes is still of another format.
+  EXPECT_THAT(ErrorWith("oxts/0003.txt", "\n1 2 3\n" + Oxts(1, 0)), HasSubstr("line 2: 3 words"));
 }
 
 TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
@@ -202,6 +230,12 @@ TEST_F(KittiTracking, SaysWhatIsWrongWhere) {
   EXPECT_THAT(
       ErrorWith("calib/0003.txt", absl::StrReplaceAll(kCalibration, {{"P2: 700", "P2: 0"}})),
       HasSubstr("P2: is not the projection of a camera"));
+  EXPECT_THAT(ErrorWith("calib/0003.txt",
+                        kCalibration + std::string("P2: 701 0 600 0 0 700 180 0 0 0 1 0\n")),
+              HasSubstr("line 6: a second P2 of other values; the first: line 2"));
+  EXPECT_THAT(ErrorWith("calib/0003.txt",  // as the other benchmark spells it
+                        kCalibration + std::string("R0_rect: 1 0 0 0 1 0 0 0 1.01\n")),
+              HasSubstr("line 6: a second R_rect of other values; the first: line 3"));
   folder_.Write("calib/0003.txt", kCalibration);
   EXPECT_THAT(ErrorWith("oxts/0003.txt", ""), HasSubstr("no frame"));
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));

@@ -21,6 +21,35 @@ TEST(LidarFolder, MissingPointsAreRefusedUnlessAllowed) {
   EXPECT_EQ(dut->frames.read(1)->motions.size(), 1u);
 }
 
+TEST(LidarFolder, AScanWithoutAPoseIsLeftOutAndNamed) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  folder.Write("points/0007.bin", "");
+  const auto dut = OpenLidarFolder(folder.path());
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 3u);
+  EXPECT_EQ(dut->frames.left_out->frames, 1u);
+  EXPECT_THAT(dut->frames.left_out->reasons,
+              testing::ElementsAre(HasSubstr("points/0007.bin: no usable pose in poses_icp.csv")));
+}
+
+TEST(LidarFolder, TwoScansOfOneNumberAreRefused) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  folder.Write("points/00005.bin", "");
+  EXPECT_THAT(ErrorOf(folder), AllOf(HasSubstr("points/00005.bin and "),
+                                     HasSubstr("points/0005.bin: two files of frame 5")));
+}
+
+TEST(LidarFolder, NamesMayHaveAnyNumberOfZeros) {
+  TemporaryFolder folder;
+  WriteExample(folder);
+  std::filesystem::rename(folder / "points/0005.bin", folder / "points/5.bin");
+  const auto dut = OpenLidarFolder(folder.path());
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.read(1)->points_S.size(), 1u);
+}
+
 TEST(LidarFolder, SaysByWhatTheOtherFormatsAreTold) {
   const TemporaryFolder folder;
   for (const char* told : {"velodyne/NNNN", "depth.txt", "landmark_mapping.txt", "carla_sensor.csv",

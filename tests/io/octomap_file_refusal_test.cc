@@ -55,9 +55,16 @@ TEST(OctomapFile, RefusesBadHeadersNamingTheLine) {
   EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nres 1\ndata\n"),
               HasSubstr("no size"));
   EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize 1\nres -1\ndata\n"),
-              HasSubstr("res is missing or not above 0"));
-  EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize 1\nres nan\ndata\n"),
-              HasSubstr("res is missing or not above 0"));
+              HasSubstr("line 4: res: '-1' is not a finite number above 0"));
+  const std::string begin = "# Octomap OcTree binary file\nid OcTree\nsize 1\n";
+  for (const std::string res : {"nan", "inf", "0", "1e-400", "wide"}) {
+    EXPECT_THAT(ErrorOf(begin + "res " + res + "\ndata\n"),
+                HasSubstr("line 4: res: '" + res + "' is not a finite number above 0"));
+  }
+  EXPECT_THAT(ErrorOf(begin + "data\n"), HasSubstr("no res before data"));
+  EXPECT_THAT(ErrorOf(begin + "res 1\nres 2\ndata\n"),
+              HasSubstr("line 5: a second res, '2'; the first is '1'"));
+  EXPECT_THAT(ErrorOf("\xEF\xBB\xBF" + begin), HasSubstr("line 1: begins with a UTF-8 byte order"));
   EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize 1\nres 1\n"),
               HasSubstr("the header ends before its word \"data\""));
 }

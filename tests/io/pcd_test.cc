@@ -90,6 +90,11 @@ TEST_F(Pcd, WhatOtherWritersLeaveOutOrPutIn) {
   ExpectPoints(Read(BinaryPcd(kPoints) + std::string(100, '\0')));  // whole pages
 }
 
+TEST_F(Pcd, MayBeginWithAByteOrderMark) {
+  ExpectPoints(Read("\xEF\xBB\xBF" + AsciiPcd(kPoints)));
+  ExpectPoints(Read("\xEF\xBB\xBF" + BinaryPcd(kPoints)));
+}
+
 // Its last number might be cut off.
 TEST_F(Pcd, RefusesALastLineThatDoesNotEnd) {
   const std::string text = AsciiPcd(kPoints);
@@ -130,6 +135,7 @@ TEST_F(Pcd, RefusesHeadersThatDisagree) {
               HasSubstr("field x has 2 numbers of type F8"));
   EXPECT_THAT(ErrorOf(Spoilt("POINTS 4", "POINTS 5")),
               HasSubstr("POINTS: 5, but WIDTH 4 times HEIGHT 1 is 4"));
+  EXPECT_THAT(ErrorOf(Spoilt("FIELDS intensity", "FIELDS x")), HasSubstr("field x occurs twice"));
   EXPECT_THAT(ErrorOf(Spoilt("WIDTH 4\n", "")), HasSubstr("the header has no WIDTH"));
   EXPECT_THAT(ErrorOf(Spoilt("WIDTH 4\n", "WIDTH 4\nWIDTH 4\n")), HasSubstr("a second WIDTH"));
   EXPECT_THAT(ErrorOf(Spoilt("VIEWPOINT 0", "VIEWPOINT")), HasSubstr("VIEWPOINT: 6 values"));
@@ -163,6 +169,8 @@ TEST_F(Pcd, RefusesPointsThatDisagree) {
       ErrorOf(binary.substr(0, binary.size() - 1)),
       AllOf(HasSubstr("151 bytes for 4 points of 38 bytes, which need 152"), HasSubstr("cut off")));
   EXPECT_THAT(ErrorOf(binary + "x"), HasSubstr("153 bytes for 4 points"));
+  // More than a page of zeros are points that the header does not have.
+  EXPECT_THAT(ErrorOf(binary + std::string(65'536, '\0')), HasSubstr("65688 bytes for 4 points"));
   EXPECT_THAT(ErrorOf(packed.substr(0, packed.size() - 1)), HasSubstr("cut off or damaged"));
   EXPECT_THAT(ErrorOf(packed + "x"), HasSubstr("cut off or damaged"));
   std::string damaged = packed;

@@ -52,6 +52,17 @@ TEST_F(PlyVertices, TakesPropertiesByName) {
   EXPECT_THAT(*dut, ElementsAre(-2.5, 4294967295., 4.0001, 0));
 }
 
+TEST_F(PlyVertices, RefusesHeadersThatSayAThingTwice) {
+  const std::string header = kHeader;
+  const auto with = [&](const std::string& line, const std::string& before) {
+    std::string bytes = header;
+    return bytes.insert(bytes.find(before), line);
+  };
+  EXPECT_THAT(ErrorOf(with("format binary_little_endian 1.0\n", "comment")),
+              HasSubstr("line 3: a second format"));
+  EXPECT_THAT(ErrorOf(with("property float x\n", "end_header")), HasSubstr("has property x twice"));
+}
+
 // The header's two vertices as in TakesPropertiesByName.
 std::string Binary(bool big_endian) {
   std::string bytes = kHeader;

@@ -63,7 +63,10 @@ TEST_F(TumRgbdRefusal, SaysWhatIsWrongWhere) {
               HasSubstr("seems cut off"));
   EXPECT_THAT(ErrorWith("camera.txt", "1 2 3\n"), HasSubstr("line 1: 3 words"));
   EXPECT_THAT(ErrorWith("camera.txt", "1 0 3 4\n"),
-              HasSubstr("word 2: '0' is not a number above 0"));
+              HasSubstr("word 2: '0' is not a number from 1 to"));
+  EXPECT_THAT(ErrorWith("camera.txt", "1e-320 1 3 4\n"), HasSubstr("word 1: '1e-320'"));
+  EXPECT_THAT(ErrorWith("camera.txt", "1 1e7 3 4\n"), HasSubstr("word 2: '1e7'"));
+  EXPECT_THAT(ErrorWith("camera.txt", "1 1 3 4 1e-320\n"), HasSubstr("word 5: '1e-320'"));
   EXPECT_THAT(ErrorWith("camera.txt", "1 1 3 4\n1 1 3 4\n"), HasSubstr("2 lines, expected one"));
   EXPECT_THAT(ErrorWith("depth/a.png", DepthPng(1).substr(0, 60)), HasSubstr("a.png: damaged"));
   EXPECT_THAT(ErrorWith("depth/a.png", PngBytes(1, 1, {1}, {.bits = 8})),
@@ -71,6 +74,16 @@ TEST_F(TumRgbdRefusal, SaysWhatIsWrongWhere) {
   EXPECT_THAT(ErrorWith("mask/a.png", PngBytes(3, 4, std::vector<int>(12, 0))),
               HasSubstr("mask/a.png: 3 x 4 pixels;"));
   EXPECT_THAT(ErrorWith("mask.txt", "1305031102.1 \n"), HasSubstr("mask.txt, line 1: 1 words"));
+}
+
+TEST_F(TumRgbdRefusal, AnImageOfAnotherSizeIsNamed) {
+  folder_.Write("depth/b.png", PngBytes(2, 2, {1, 1, 1, 1}));
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_TRUE(dut->frames.read(0).ok());
+  EXPECT_THAT(std::string(dut->frames.read(1).status().message()),
+              AllOf(HasSubstr("depth/b.png: 2 x 2 pixels; "),
+                    HasSubstr("depth/a.png, of the same camera, has 4 x 3")));
 }
 
 TEST_F(TumRgbdRefusal, NamesTheRowsThatAreLeftOut) {
