@@ -41,10 +41,13 @@ bool IsAlone(Iterator first, Iterator end) {
 }
 
 std::string AloneText(const RecordedPose& pose, const RecordedPose& next) {
+  const auto seconds = [](Duration duration) {
+    return std::chrono::duration_cast<std::chrono::seconds>(duration).count();
+  };
   return absl::StrCat("the stamp ", ToNanoseconds(pose.stamp), " ns lies ",
-                      NumberText(ToSeconds(std::chrono::abs(pose.stamp - next.stamp))),
+                      seconds(std::chrono::abs(pose.stamp - next.stamp)),
                       " s from the next frame's; the limit is ",
-                      NumberText(ToSeconds(FrameLimits().max_stamp_jump)), " s");
+                      seconds(FrameLimits().max_stamp_jump), " s");
 }
 
 // The poses that can be used. Why others cannot goes to left_out.

@@ -206,7 +206,7 @@ TEST(Evaluate, WithWrongLabels) {
 TEST(Evaluate, OnlyBySeedsThatAreNumbers) {
   const Finished dut = RunClearway({"evaluate", "sim:small", "--seed", "99999999999999999999"});
   EXPECT_EQ(dut.exit_code, 2);
-  EXPECT_THAT(dut.err, HasSubstr("is too large"));
+  EXPECT_THAT(dut.err, HasSubstr("--seed: expected a whole number from 0 to 18446744073709551615"));
   const Finished alone = RunClearway({"evaluate", "sim:small", "--wrong-labels-seed", "2"});
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_THAT(alone.err, HasSubstr("requires --wrong-labels"));
