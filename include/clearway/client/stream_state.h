@@ -14,8 +14,8 @@ namespace clearway {
 struct StreamState {
   bool connected = false;        // the server has answered on the stream that is open now
   std::uint64_t reconnects = 0;  // times the server answered again after a loss
-  // Of these, times it was another start of the server (senders and mirrors know): what the one
-  // before had is gone.
+  // Reconnections after which the server had restarted: its scene from before is lost. Counted by
+  // senders and mirrors.
   std::uint64_t server_restarts = 0;
   absl::Status last_error;  // why the stream broke last; OK if it never did
 };

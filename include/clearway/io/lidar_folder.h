@@ -59,7 +59,7 @@ struct LidarFolder {
   FrameSource frames;
   // All of the tables, whatever the range: what really happened before and after.
   std::vector<RecordedPose> poses;  // ascending frames
-  std::size_t first_pose = 0;       // that of the first frame of the range; one follows a frame
+  std::size_t first_pose = 0;       // frame k of the range has poses[first_pose + k]
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
 };
 

@@ -1,4 +1,4 @@
-// What of a folder a scene can take.
+// Leaves out of a folder what a scene would refuse.
 #pragma once
 
 #include "absl/status/statusor.h"
@@ -9,7 +9,7 @@ namespace clearway {
 // Leaves out what a scene would refuse (FrameLimits), counts and names it in
 // `folder.frames.left_out`: frames whose sensor is beyond max_coordinate_m, boxes that are, stamps
 // of more than 2^62 ns either way, and a first or last frame alone whose stamp is more than
-// max_stamp_jump from the others: such a frame is a clock that was not set yet, or one bad number.
+// max_stamp_jump from the others, as of a clock that was not set yet.
 // Comes after WithOrigin, which refuses folders that are far away as a whole.
 //
 // INVALID_ARGUMENT, with the first reason, if no frame is left.
