@@ -10,7 +10,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
-#include "clearway/base/decimal.h"
+#include "clearway/base/parse_number.h"
 #include "server/config.h"
 
 namespace clearway {
@@ -18,6 +18,12 @@ namespace {
 
 absl::Status Bad(const std::string& text, const char* wanted) {
   return absl::InvalidArgumentError(absl::StrCat("\"", text, "\" is not ", wanted));
+}
+
+// Blanks may stand around it.
+bool ParseBlankedNumber(const std::string& text, double& value) {
+  const auto number = absl::StripAsciiWhitespace(text);
+  return ParseNumber({number.data(), number.size()}, value);
 }
 
 // One pair for each kind of value: from text, and to TOML.
@@ -29,8 +35,8 @@ absl::Status Parse(const std::string& text, bool& value) {
   return absl::SimpleAtob(text, &value) ? absl::OkStatus() : Bad(text, "true or false");
 }
 absl::Status Parse(const std::string& text, double& value) {
-  return ParseDecimal(text, value) && std::isfinite(value) ? absl::OkStatus()
-                                                           : Bad(text, "a number");
+  return ParseBlankedNumber(text, value) && std::isfinite(value) ? absl::OkStatus()
+                                                                 : Bad(text, "a number");
 }
 absl::Status Parse(const std::string& text, int& value) {
   return absl::SimpleAtoi(text, &value) ? absl::OkStatus() : Bad(text, "a whole number");
@@ -42,7 +48,7 @@ absl::Status Parse(const std::string& text, std::uint64_t& value) {
 absl::Status Parse(const std::string& text, Duration& value) {
   double seconds = 0;
   constexpr double kLimit_s = 1e9;  // FromSeconds takes less than 9.2e9
-  if (!ParseDecimal(text, seconds) || !(std::abs(seconds) <= kLimit_s)) {
+  if (!ParseBlankedNumber(text, seconds) || !(std::abs(seconds) <= kLimit_s)) {
     return Bad(text, "a time in seconds of at most 1e9 either way");
   }
   value = FromSeconds(seconds);
@@ -68,7 +74,7 @@ absl::Status Parse(const std::string& text, MotionFromPoints& value) {
 absl::Status Parse(const std::string& text, std::vector<Aabb>& boxes) {
   std::vector<double> numbers;
   for (const auto& part : absl::StrSplit(text, absl::ByAnyChar(" ,;[]"), absl::SkipEmpty())) {
-    if (!ParseDecimal({part.data(), part.size()}, numbers.emplace_back()))
+    if (!ParseNumber({part.data(), part.size()}, numbers.emplace_back()))
       return Bad(text, "a list of numbers");
   }
   if (numbers.size() % 6 != 0) return Bad(text, "a list of six numbers a box: minimum, maximum");
@@ -137,7 +143,7 @@ struct Range {
 // Of the text of a number, before it is converted to a type that may not hold it. Other texts pass.
 absl::Status CheckRange(const std::string& key, const std::string& text, const Range& range) {
   double value = 0;
-  if (!ParseDecimal(text, value) || std::isnan(value)) return absl::OkStatus();
+  if (!ParseBlankedNumber(text, value) || std::isnan(value)) return absl::OkStatus();
   if (range.with_ends ? value >= range.min && value <= range.max
                       : value > range.min && value < range.max) {
     return absl::OkStatus();

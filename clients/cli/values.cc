@@ -6,7 +6,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "clearway/base/decimal.h"
+#include "clearway/base/parse_number.h"
 
 namespace clearway::cli {
 namespace {
@@ -67,8 +67,9 @@ absl::StatusOr<TimeArgument> ParseTime(const std::string& text) {
 }
 
 absl::StatusOr<double> ParseFinite(const std::string& text) {
+  const auto number = absl::StripAsciiWhitespace(text);
   double value = 0;
-  if (!ParseDecimal(text, value) || !std::isfinite(value)) {
+  if (!ParseNumber({number.data(), number.size()}, value) || !std::isfinite(value)) {
     return Expected("a finite number", text);
   }
   return value;
@@ -77,7 +78,7 @@ absl::StatusOr<double> ParseFinite(const std::string& text) {
 absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text) {
   std::vector<double> numbers;
   for (const auto field : absl::StrSplit(text, ',')) {
-    const auto number = ParseFinite(std::string(absl::StripAsciiWhitespace(field)));
+    const auto number = ParseFinite(std::string(field));
     if (!number.ok()) return Expected("numbers with commas between them", text);
     numbers.push_back(*number);
   }

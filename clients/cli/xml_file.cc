@@ -1,11 +1,10 @@
 #include "cli/xml_file.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "cli/json_file.h"
+#include "cli/values.h"
 
 namespace clearway::cli {
 
@@ -19,14 +18,6 @@ struct XmlText {
         absl::StrCat(file, ": line ", 1 + std::count(text.begin(), end, '\n'), ": ", what));
   }
 };
-
-namespace {
-
-bool ParseFinite(const char* text, double* number) {
-  return absl::SimpleAtod(text, number) && std::isfinite(*number);
-}
-
-}  // namespace
 
 absl::StatusOr<XmlElement> XmlElement::Load(const std::filesystem::path& file, const char* root) {
   auto text = ReadTextFile(file, "XML file");
@@ -77,8 +68,8 @@ absl::StatusOr<XmlElement> XmlElement::Child(const char* name) const {
 }
 
 absl::StatusOr<double> XmlElement::Number() const {
-  double number = 0;
-  if (ParseFinite(node_.child_value(), &number)) return number;
+  const auto number = ParseFinite(node_.child_value());
+  if (number.ok()) return number;
   return Error(absl::StrCat("expected a number, not \"", node_.child_value(), "\""));
 }
 
@@ -94,8 +85,8 @@ absl::StatusOr<double> XmlElement::NumberOr(const char* child, double otherwise)
 }
 
 absl::StatusOr<double> XmlElement::NumberAttribute(const char* name) const {
-  double number = 0;
-  if (ParseFinite(Attribute(name).c_str(), &number)) return number;
+  const auto number = ParseFinite(Attribute(name));
+  if (number.ok()) return number;
   return Error(absl::StrCat(name, ": expected a number, not \"", Attribute(name), "\""));
 }
 

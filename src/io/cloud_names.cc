@@ -1,11 +1,11 @@
 #include "io/cloud_names.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "clearway/base/parse_number.h"
 
 namespace clearway {
 namespace {
@@ -41,11 +41,9 @@ std::optional<Ending> EndingOf(const std::string& stem) {
   return ending;
 }
 
-std::optional<std::int64_t> Number(std::string digits) {
+std::optional<std::int64_t> Number(const std::string& digits) {
   std::int64_t value = 0;
-  const char* const end = digits.data() + digits.size();
-  const auto [rest, error] = std::from_chars(digits.data(), end, value);
-  return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+  return ParseWhole(digits, value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<Time> StampOf(const Ending& ending) {

@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
-#include "io/parse_number.h"
+#include "clearway/base/parse_number.h"
 
 namespace clearway {
 namespace {

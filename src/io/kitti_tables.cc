@@ -122,7 +122,7 @@ class DrivePoses {
 
 absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const Path& path,
                                                                LeftOut& left_out) {
-  auto lines = ReadWordRows(path, {}, /*blank_lines=*/true);
+  auto lines = ReadWordRows(path, {.blanks = BlankLines::kRows});
   if (!lines.ok()) return lines.status();
   std::vector<std::optional<Pose>> T_W_I;
   DrivePoses drive;
@@ -138,12 +138,7 @@ absl::StatusOr<std::vector<std::optional<Pose>>> ReadKittiOxts(const Path& path,
   RowPolicy policy(left_out);
   for (Row& row : lines->rows) {
     T_W_I.emplace_back();
-    if (row.size() == 0) {
-      // Nothing that could be of another format, even in the first line.
-      left_out.AddRow(absl::StrCat(row.where(), ": the line is empty; its frame has no pose"));
-    } else if (auto status = policy.Visit(row, visit); !status.ok()) {
-      return status;
-    }
+    if (auto status = policy.Visit(row, visit); !status.ok()) return status;
   }
   if (T_W_I.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(path.string(), ": no frame"));

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/parse_number.h"
 #include "io/mesh_lines.h"
-#include "io/parse_number.h"
 
 namespace clearway {
 namespace {

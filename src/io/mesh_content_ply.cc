@@ -5,9 +5,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
+#include "clearway/base/parse_number.h"
 #include "io/mesh_content.h"
 #include "io/mesh_lines.h"
-#include "io/parse_number.h"
 #include "io/ply_scalar.h"
 
 namespace clearway {

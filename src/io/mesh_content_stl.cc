@@ -3,9 +3,9 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/parse_number.h"
 #include "io/mesh_content.h"
 #include "io/mesh_lines.h"
-#include "io/parse_number.h"
 
 namespace clearway {
 namespace {

@@ -1,11 +1,11 @@
 #include "io/numbered_files.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <system_error>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/parse_number.h"
 #include "clearway/io/file_type.h"
 
 namespace clearway {
@@ -16,9 +16,7 @@ using Path = std::filesystem::path;
 std::optional<int> NumberOf(const std::string& name) {
   constexpr int kMost = 99'999'999;
   int number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data(), end, number);
-  if (error != std::errc() || rest != end || number < 0 || number > kMost) return std::nullopt;
+  if (!ParseWhole(name, number) || number < 0 || number > kMost) return std::nullopt;
   return number;
 }
 

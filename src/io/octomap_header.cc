@@ -5,7 +5,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
-#include "io/parse_number.h"
+#include "clearway/base/parse_number.h"
 #include "io/utf8.h"
 
 namespace clearway {

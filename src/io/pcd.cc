@@ -11,9 +11,9 @@
 #include "absl/strings/str_join.h"
 #include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
+#include "clearway/base/parse_number.h"
 #include "io/cloud_points.h"
 #include "io/lzf.h"
-#include "io/parse_number.h"
 #include "io/pcd_header.h"
 #include "io/text_lines.h"
 

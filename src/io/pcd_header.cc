@@ -1,12 +1,12 @@
 #include "io/pcd_header.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "clearway/base/parse_number.h"
 #include "io/cloud_points.h"
 
 namespace clearway {
@@ -94,9 +94,7 @@ class Parser {
     }
     std::vector<std::uint64_t> numbers(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const char* const end = words[i].data() + words[i].size();
-      const auto [rest, error] = std::from_chars(words[i].data(), end, numbers[i]);
-      if (error != std::errc() || rest != end) {
+      if (!ParseWhole(words[i], numbers[i])) {
         return Fail(key, absl::StrCat("'", words[i], "' is not a whole number"));
       }
     }
@@ -160,7 +158,9 @@ class Parser {
     }
     for (std::size_t i = 0; i < words.size(); ++i) {
       double value = 0;
-      std::from_chars(words[i].data(), words[i].data() + words[i].size(), value);
+      if (!ParseNumber(words[i], value)) {
+        return Fail("VIEWPOINT", absl::StrCat("'", words[i], "' is not a number"));
+      }
       header.has_viewpoint |= value != (i == 3 ? 1 : 0);  // x y z, then a quaternion w x y z
     }
     return absl::OkStatus();

@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
-#include "io/parse_number.h"
+#include "clearway/base/parse_number.h"
 
 namespace clearway {
 namespace {

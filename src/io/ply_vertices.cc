@@ -12,7 +12,7 @@
 #include "absl/strings/str_join.h"
 #include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
-#include "io/parse_number.h"
+#include "clearway/base/parse_number.h"
 #include "io/ply_scalar.h"
 #include "io/text_lines.h"
 

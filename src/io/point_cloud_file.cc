@@ -1,12 +1,12 @@
 #include "clearway/io/point_cloud_file.h"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
+#include "clearway/base/parse_number.h"
 #include "clearway/geometry/unit_quaternion.h"
 #include "clearway/io/file_type.h"
 #include "io/text_lines.h"
@@ -21,9 +21,7 @@ constexpr std::size_t kPointBytes = 28;  // the number of coordinates, and as ma
 
 bool ParsePoint(std::string_view line, Eigen::Vector3f& point) {
   for (int i = 0; i < 3; ++i) {
-    const std::string_view word = TakeWord(line);
-    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), point[i]);
-    if (error != std::errc() || rest != word.data() + word.size()) return false;
+    if (!ParseWhole(TakeWord(line), point[i])) return false;
   }
   return TakeWord(line).empty() && point.allFinite();
 }

@@ -15,7 +15,9 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kTumWords = 8, kKittiWords = 12;
 constexpr WordFormat kTum{LastLine::kEnds, Comments::kHash, Separators::kCommasToo};
-constexpr WordFormat kKitti{LastLine::kEnds, Comments::kHash};
+constexpr WordFormat kKitti{
+    .last = LastLine::kEnds, .comments = Comments::kHash, .blanks = BlankLines::kRows};
+constexpr WordFormat kTimes{.last = LastLine::kMayBeOpen, .blanks = BlankLines::kRows};
 
 // Visits every row with its number, from 0.
 absl::StatusOr<std::size_t> VisitNumbered(
@@ -88,7 +90,7 @@ absl::StatusOr<std::vector<std::optional<LineTime>>> ReadTimes(const Path& path,
     if (row.status().ok()) times.back() = LineTime{stamp, row.line()};
     return row.status();
   };
-  const auto count = VisitNumbered(path, {.last = LastLine::kMayBeOpen}, left_out, visit);
+  const auto count = VisitNumbered(path, kTimes, left_out, visit);
   if (!count.ok()) return count.status();
   times.resize(*count);
   return times;

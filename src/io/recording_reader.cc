@@ -44,7 +44,8 @@ absl::Status CheckWhole(const Path& path) {
     const bool may_be_cloud = LowerExtension(path) == ".pcd" || LowerExtension(path) == ".ply";
     return absl::InvalidArgumentError(absl::StrCat(
         path.string(), ": not a recording", kind.empty() ? "" : "; the file is ", kind,
-        may_be_cloud ? "; of point clouds name the folder, which has a table of their poses" : ""));
+        may_be_cloud ? "; give the folder that holds the clouds and the table of their poses"
+                     : ""));
   }
   if (start->size() < kHeaderBytes) {
     return absl::DataLossError(absl::StrCat(path.string(), ": cut off: only ", start->size(),

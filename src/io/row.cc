@@ -8,9 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
+#include "clearway/base/parse_number.h"
 #include "clearway/geometry/unit_quaternion.h"
 #include "clearway/io/world_origin.h"
-#include "io/parse_number.h"
 #include "io/utf8.h"
 
 namespace clearway {

@@ -7,6 +7,11 @@
 namespace clearway {
 
 absl::Status RowPolicy::Visit(Row& row, const RowVisitor& visit) {
+  if (row.size() == 0) {
+    // Nothing that could be of another format, even in the first line.
+    left_out_.AddRow(absl::StrCat(row.where(), ": the line is empty, so its frame is left out"));
+    return absl::OkStatus();
+  }
   absl::Status status = row.status();
   if (status.ok()) status = visit(row);
   const bool is_usable = status.ok() || absl::IsInvalidArgument(status);

@@ -16,6 +16,7 @@ using RowVisitor = std::function<absl::Status(Row&)>;
 
 // The one policy of all tables that are recordings: a bad row is left out, counted and named. A
 // table is refused, with the line, if its first row is not of the format, or if no row can be used.
+// Tables whose rows are numbered by their lines keep empty lines, as rows without words: bad rows.
 // Where the rest of a file depends on every row, as in a calibration, readers do not use this, and
 // refuse the file.
 class RowPolicy {

@@ -46,8 +46,7 @@ absl::Status VisitWords(const std::filesystem::path& path, const WordFormat& for
   return policy.Finish();
 }
 
-absl::StatusOr<WordRows> ReadWordRows(const std::filesystem::path& path, const WordFormat& format,
-                                      bool blank_lines) {
+absl::StatusOr<WordRows> ReadWordRows(const std::filesystem::path& path, const WordFormat& format) {
   absl::StatusOr<std::string> text = ReadText(path, format);
   if (!text.ok()) return text.status();
   WordRows result;
@@ -58,7 +57,8 @@ absl::StatusOr<WordRows> ReadWordRows(const std::filesystem::path& path, const W
     Row row(result.name_and_text->first);
     row.Restart(lines.number());
     AddWords(line, format, row);
-    if (row.size() == 0 && !blank_lines) continue;
+    const bool is_blank = Trimmed(line).empty();  // a comment is not
+    if (row.size() == 0 && !(is_blank && format.blanks == BlankLines::kRows)) continue;
     result.rows.push_back(std::move(row));
   }
   while (!result.rows.empty() && result.rows.back().size() == 0) result.rows.pop_back();

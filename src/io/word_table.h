@@ -16,11 +16,15 @@ namespace clearway {
 enum class Comments { kNone, kHash };
 // What stands between words besides blanks and tabs.
 enum class Separators { kBlanks, kCommasToo };
+// Whether empty lines are rows without words, up to the last line with words: in tables whose rows
+// are numbered by their lines.
+enum class BlankLines { kSkipped, kRows };
 
 struct WordFormat {
   LastLine last = LastLine::kEnds;
   Comments comments = Comments::kNone;
   Separators separators = Separators::kBlanks;
+  BlankLines blanks = BlankLines::kSkipped;
 };
 
 // Visits the lines that hold words, under the policy of RowPolicy. Errors of ReadTextFile above
@@ -33,8 +37,6 @@ struct WordRows {
   std::shared_ptr<const std::pair<std::string, std::string>> name_and_text;
   std::vector<Row> rows;
 };
-// Lines that hold words; with `blank_lines`, those up to the last that does.
-absl::StatusOr<WordRows> ReadWordRows(const std::filesystem::path& path, const WordFormat& format,
-                                      bool blank_lines = false);
+absl::StatusOr<WordRows> ReadWordRows(const std::filesystem::path& path, const WordFormat& format);
 
 }  // namespace clearway

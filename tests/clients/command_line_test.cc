@@ -155,7 +155,7 @@ TEST(CommandLine, SaysWhatIsWrongWithWholeNumbers) {
 TEST(CommandLine, FlagsBehindTwoDashesAreNone) {
   const Finished dut = RunClearway({"clear-region", "--", "-1,-1,-1,2,2,2", "--json"});
   EXPECT_EQ(dut.exit_code, 2);
-  EXPECT_THAT(dut.err, HasSubstr("--json stands behind --, where nothing counts as a flag"));
+  EXPECT_THAT(dut.err, HasSubstr("--json comes after --, so it is not read as a flag"));
   EXPECT_THAT(RunClearway({"clear-region", "--server", "127.0.0.1:1", "--timeout", "1", "--",
                            "-1,-1,-1,2,2,2"})
                   .err,

@@ -11,8 +11,10 @@ namespace clearway {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 // The velodyne (x forward, z up) in the camera (z forward, y down), which is 0.3 m before it.
 constexpr char kCalib[] = "P0: 718 0 607 0 0 718 185 0 0 0 1 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.3\n";
@@ -154,13 +156,38 @@ TEST_F(KittiOdometry, AScanWithoutAPoseIsLeftOutAndNamed) {
               ElementsAre(HasSubstr("velodyne/000003.bin: no usable pose in poses.txt")));
 }
 
+// Lines are numbered by the scans: without the empty one, every later scan would have its
+// predecessor's pose.
+TEST_F(KittiOdometry, AnEmptyLineOfPosesIsThatOfAScan) {
+  Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n\n0 0 1 0 0 1 0 0 -1 0 0 1\n");
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->frames.frame_count, 2u);
+  EXPECT_EQ(dut->frames.read(1)->stamp, TimeFromNanoseconds(207'500'000));
+  EXPECT_THAT(dut->frames.left_out->reasons,
+              UnorderedElementsAre(
+                  HasSubstr("08/poses.txt, line 2: the line is empty, so its frame is left out"),
+                  HasSubstr("velodyne/000001.bin: no usable pose in poses.txt")));
+}
+
+TEST_F(KittiOdometry, AnEmptyLineOfTimesIsThatOfAPose) {
+  Write("times.txt", "0.0\n\n0.2\n");
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->frames.frame_count, 2u);
+  EXPECT_EQ(dut->frames.read(1)->stamp, TimeFromNanoseconds(200'000'000));
+  EXPECT_THAT(dut->frames.left_out->reasons,
+              Contains(HasSubstr("08/times.txt, line 2: the line is empty")));
+}
+
 TEST_F(KittiOdometry, AStampThatDoesNotAscendIsNamedWithItsLine) {
-  Write("times.txt", "\n0.0\n0.3\n0.2\n");
+  Write("poses.txt", std::string("# of the left camera\n") + kPoses);
+  Write("times.txt", "0.0\n0.3\n0.2\n");
   const auto dut = Open();
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_EQ(dut->frames.frame_count, 2u);
   EXPECT_THAT(dut->frames.left_out->reasons[0],
-              HasSubstr("08/times.txt, line 3: frame 1 at 300000000 ns: stamps must ascend"));
+              HasSubstr("08/times.txt, line 2: frame 1 at 300000000 ns: stamps must ascend"));
 }
 
 TEST_F(KittiOdometry, Refusals) {

@@ -215,7 +215,7 @@ TEST_F(KittiTracking, AnEmptyLineOfOxtsIsAFrameWithoutAPose) {
   EXPECT_TRUE(dut->poses[0].T_W_S.translation.isApprox(kSensorInImu, 1e-9));
   EXPECT_EQ(dut->frames.left_out->rows, 2u);  // its box, too
   EXPECT_THAT(dut->frames.left_out->reasons[0],
-              HasSubstr("oxts/0003.txt, line 1: the line is empty; its frame has no pose"));
+              HasSubstr("oxts/0003.txt, line 1: the line is empty, so its frame is left out"));
   // What then comes is still of another format.
   EXPECT_THAT(ErrorWith("oxts/0003.txt", "\n1 2 3\n" + Oxts(1, 0)), HasSubstr("line 2: 3 words"));
 }

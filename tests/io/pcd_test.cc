@@ -139,6 +139,8 @@ TEST_F(Pcd, RefusesHeadersThatDisagree) {
   EXPECT_THAT(ErrorOf(Spoilt("WIDTH 4\n", "")), HasSubstr("the header has no WIDTH"));
   EXPECT_THAT(ErrorOf(Spoilt("WIDTH 4\n", "WIDTH 4\nWIDTH 4\n")), HasSubstr("a second WIDTH"));
   EXPECT_THAT(ErrorOf(Spoilt("VIEWPOINT 0", "VIEWPOINT")), HasSubstr("VIEWPOINT: 6 values"));
+  EXPECT_THAT(ErrorOf(Spoilt("VIEWPOINT 0", "VIEWPOINT x")),
+              HasSubstr("VIEWPOINT: 'x' is not a number"));
   EXPECT_THAT(ErrorOf(Spoilt("DATA ascii", "DATA binary_lz4")),
               HasSubstr("'binary_lz4' is not ascii"));
   EXPECT_THAT(ErrorOf(Spoilt("FIELDS intensity x", "FIELDS intensity u")),

@@ -47,9 +47,10 @@ TEST(Recording, RefusesOtherKindsAndVersions) {
   folder.Write("text", "these are no frames\n");
   EXPECT_EQ(OpenRecording(folder / "text").status().code(), absl::StatusCode::kInvalidArgument);
   folder.Write("cloud.pcd", "# .PCD v0.7\n");
-  EXPECT_THAT(std::string(OpenRecording(folder / "cloud.pcd").status().message()),
-              HasSubstr("cloud.pcd: not a recording; the file is a point cloud (PCD); of point "
-                        "clouds name the folder, which has a table of their poses"));
+  EXPECT_THAT(
+      std::string(OpenRecording(folder / "cloud.pcd").status().message()),
+      HasSubstr("cloud.pcd: not a recording; the file is a point cloud (PCD); give the folder "
+                "that holds the clouds and the table of their poses"));
   ChangeDatabase(folder / "other", "CREATE TABLE t (x)");
   EXPECT_EQ(OpenRecording(folder / "other").status().code(), absl::StatusCode::kInvalidArgument);
   WriteFrames(folder / "new", {ExampleFrame(0)});

@@ -1,4 +1,4 @@
-#include "io/parse_number.h"
+#include "clearway/base/parse_number.h"
 
 #include <cmath>
 #include <limits>

@@ -15,8 +15,8 @@ bool ParseWhole(std::string_view text, T& value) {
   return error == std::errc() && rest == end;
 }
 
-// The whole text as a number, also "nan", "inf" and one with a plus; the same in every locale.
-// Numbers too large for a double become infinite, those too small 0.
+// The whole text as a decimal number, also "nan", "inf" and one with a plus; the same in every
+// locale. Numbers too large for a double become infinite, those too small 0.
 bool ParseNumber(std::string_view text, double& value);
 
 }  // namespace clearway
