@@ -10,6 +10,7 @@
 #include "scene/implausible_motions.h"
 #include "scene/late_frame.h"
 #include "scene/object_groups.h"
+#include "scene/object_points.h"
 #include "scene/other_ids.h"
 #include "scene/point_placement.h"
 #include "scene/report_issue.h"

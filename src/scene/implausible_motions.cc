@@ -1,18 +1,19 @@
 #include "scene/implausible_motions.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
+#include "scene/object_motion.h"
 #include "scene/report_issue.h"
 
 namespace clearway {
 namespace {
 
-// Whether a position moves faster than anything; stamps may be off by a millisecond.
+// Whether a position moves faster than anything, within the shortest step that tells a velocity.
 std::optional<ObjectIssue> TooFast(ObjectId id, const Eigen::Vector3d& from_W,
                                    const Eigen::Vector3d& to_W, Duration within) {
-  constexpr double kClockError_s = 1e-3;
-  const double speed_mps = (to_W - from_W).norm() / (ToSeconds(within) + kClockError_s);
+  const double speed_mps = (to_W - from_W).norm() / ToSeconds(std::max(within, kShortestStep));
   if (speed_mps <= kMaxSpeed_mps) return std::nullopt;
   return ObjectIssue{ObjectIssueKind::kMotionTooFast, id, speed_mps, kMaxSpeed_mps};
 }
@@ -41,10 +42,14 @@ std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const FrameLimits
   return ObjectIssue{ObjectIssueKind::kTurnTooLarge, motion.id, turn_rad, kMaxTurn_rad};
 }
 
-std::optional<ObjectIssue> IssueOf(const ObjectPose& pose, const MovingObject& known, Time stamp) {
+std::optional<ObjectIssue> IssueOf(const ObjectPose& pose, const MovingObject& known, Time stamp,
+                                   const FrameLimits& limits) {
   if (known.given() || !known.T_B_O) return std::nullopt;
   const StampedPose& last = known.history.back();
   const Pose T_W_O = pose.T_W_B * *known.T_B_O;
+  if (const double reach_m = LargestCoordinate(T_W_O); reach_m > limits.max_coordinate_m) {
+    return ObjectIssue{ObjectIssueKind::kMotionTooFar, pose.id, reach_m, limits.max_coordinate_m};
+  }
   return TooFast(pose.id, last.T_W_O.translation, T_W_O.translation,
                  std::chrono::abs(stamp - last.stamp));
 }
@@ -54,7 +59,7 @@ std::optional<ObjectIssue> IssueOf(const ObjectClue& clue, const MovingObject* k
                                    const LabelledCloud& cloud, Time stamp,
                                    const SceneParams& params, const FrameLimits& limits) {
   if (clue.motion == nullptr) {
-    return clue.pose && known ? IssueOf(*clue.pose, *known, stamp) : std::nullopt;
+    return clue.pose && known ? IssueOf(*clue.pose, *known, stamp, limits) : std::nullopt;
   }
   const ObjectMotion& motion = *clue.motion;
   if (const auto issue = IssueOf(motion, limits)) return issue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/object_points.h"
+
 namespace clearway {
 
 bool IsNewerThan(const MovingObject& object, Time stamp) {

@@ -39,8 +39,16 @@ Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
   return GoesOn(track, LastMotionOf(track), solid, params);
 }
 
+const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp) {
+  const auto before = std::find_if(track.rbegin(), track.rend(), [&](const StampedPose& pose) {
+    return pose.stamp + kShortestStep <= stamp;
+  });
+  return before == track.rend() ? nullptr : &*before;
+}
+
 Twist LastMotionOf(std::span<const StampedPose> track) {
-  return VelocityBetween(track[track.size() - 2], track.back());
+  const StampedPose* const before = StepBefore(track, track.back().stamp);
+  return before == nullptr ? Twist{} : VelocityBetween(*before, track.back());
 }
 
 }  // namespace clearway

@@ -21,7 +21,14 @@ Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, con
 Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
                      const SceneParams& params);
 
-// The velocity between the last two poses, in O.
+// Poses that are closer in time tell no velocity: of two sensors' frames 10 microseconds apart, a
+// centimetre of noise would be 1,000 m/s.
+inline constexpr Duration kShortestStep = std::chrono::milliseconds(5);
+
+// The newest pose that is at least kShortestStep before `stamp`; null if there is none.
+const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp);
+
+// The velocity of the last step, in O, of at least kShortestStep; zero if there is none.
 Twist LastMotionOf(std::span<const StampedPose> track);
 
 }  // namespace clearway

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clearway/map/ray_caster.h"
-#include "scene/completion.h"
 #include "scene/mended_pose.h"
 #include "scene/motion_from_points.h"
+#include "scene/object_motion.h"
 #include "scene/position_bound.h"
 #include "scene/prospect.h"
-#include "scene/rays_near.h"
 
 namespace clearway {
 namespace {
@@ -29,13 +27,11 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.future.empty()) object.future_velocity_O = {};
 }
 
-// The last pose before `stamp`, null if there is none: a second frame of the same stamp replaces
-// the pose of the first.
-const StampedPose* LastBefore(const MovingObject& object, Time stamp) {
-  for (auto entry = object.history.rbegin(); entry != object.history.rend(); ++entry) {
-    if (entry->stamp < stamp) return &*entry;
-  }
-  return nullptr;
+// To that of the step that leads there from `from`, or, if it is too short, from an earlier pose.
+void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& object) {
+  const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
+  if (!is_long) from = StepBefore(object.history, to.stamp);
+  if (from != nullptr) object.velocity_O = VelocityBetween(*from, to);
 }
 
 // After a pose that is no prediction, be it a motion from a predicted one: then what was missed in
@@ -57,28 +53,6 @@ PositionBound FirstBound(const MovingObject& object, const SceneParams& params) 
   return BoundOf({&last, 1}, last.stamp, {}, *object.solid, params);
 }
 
-// Misses of what was hit before: nothing else can be wrong, and the free space around an object is
-// none of its map.
-ScanUpdate MissesOf(const MovingObject& object, const LabelledCloud& cloud,
-                    const SceneParams& params, ThreadPool& pool) {
-  const Aabb box_O = object.observed_box_O.Padded(params.object_resolution_m);
-  const ClippedRays rays = RaysWithin(box_O, object.history.back().T_W_O, cloud, params);
-  // Rays that are too many clear nothing: only an object of some kilometres has them.
-  const ScanUpdate cast =
-      RayCaster(pool)
-          .Cast(object.map_O.grid(), rays.Cloud(), {.octomap_ends = params.rays.octomap_ends})
-          .value_or(ScanUpdate());
-  ScanUpdate misses;
-  for (std::size_t i = 0; i < cast.keys().size(); ++i) {
-    const VoxelBlock* known = object.map_O.blocks().Find(cast.keys()[i]);
-    if (known == nullptr) continue;
-    BlockMask missed = cast.block(i).free;
-    missed.Subtract(cast.block(i).end) &= known->observed;
-    if (missed.Any()) misses.MarkFree(cast.keys()[i], missed);
-  }
-  return misses;
-}
-
 // Where O begins: its voxels are then W's moved by a quarter, however a wrong label or two moves
 // the mean of the points. Not W's themselves: what people build has round measures, and of a
 // surface between two voxels rounding would fill both.
@@ -88,9 +62,7 @@ Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W, double voxel_m) {
 
 // To where its points put it. Their noise is that of registration: a track evens it out.
 void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingObject& object) {
-  if (const StampedPose* before = LastBefore(object, stamp)) {
-    object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
-  }
+  SetVelocity(nullptr, {stamp, T_W_O}, object);
   Remember(object, {stamp, T_W_O}, params.history);
   SceneParams of_track = params;
   of_track.motion = MotionModel::kTrack;
@@ -98,9 +70,17 @@ void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingOb
   object.estimated = true;
 }
 
+// Where prediction and its points put it.
+Pose PlaceByItsPoints(const MovingObject& object, const ObjectClue& clue, Time stamp,
+                      const SceneParams& params) {
+  if (clue.T_W_O_estimated) return *clue.T_W_O_estimated;
+  Pose T_W_O = PredictPose(object, stamp, params.horizon).T_W_O;
+  T_W_O.translation += clue.off_W;
+  return T_W_O;
+}
+
 // To where it is predicted, but for what its points say against that.
-void Bridge(const Eigen::Vector3d& off_W, Time stamp, const SceneParams& params,
-            MovingObject& object) {
+void Bridge(const ObjectClue& clue, Time stamp, const SceneParams& params, MovingObject& object) {
   // Up to its future's end its poses are stated; beyond it, it goes on as it did there.
   const bool outlived = !object.future.empty() && object.future.back().stamp <= stamp;
   if (outlived) object.velocity_O = object.LastVelocity();
@@ -111,9 +91,7 @@ void Bridge(const Eigen::Vector3d& off_W, Time stamp, const SceneParams& params,
     const bool rests = *object.velocity_O == Twist{};
     if (rests && unknown.At(1) < object.bound.At(1)) object.bound = unknown;
   }
-  Pose T_W_O = PredictPose(object, stamp, params.horizon).T_W_O;
-  T_W_O.translation += off_W;
-  Remember(object, {stamp, T_W_O}, params.history);
+  Remember(object, {stamp, PlaceByItsPoints(object, clue, stamp, params)}, params.history);
   object.bridged = true;
 }
 
@@ -133,7 +111,7 @@ MovingObject FirstSight(ObjectId id, const LabelledCloud& cloud, const ObjectClu
        {Eigen::Quaterniond::Identity(), OriginNear(centroid_W, params.object_resolution_m)}}};
   object.first_seen = stamp;
   const Pose& T_W_O = object.history.back().T_W_O;
-  if (clue.motion != nullptr) {
+  if (clue.motion != nullptr && stamp - clue.motion->from >= kShortestStep) {
     object.velocity_O =
         VelocityBetween({clue.motion->from, Inverse(clue.motion->H_W) * T_W_O}, {stamp, T_W_O});
   }
@@ -162,23 +140,22 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     T_W_from.translation += clue.off_W;
     const Pose T_W_T = CarriedOn(*clue.motion, T_W_from, object);  // eq. 2
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
-    object.velocity_O = VelocityBetween({clue.motion->from, T_W_from}, {stamp, T_W_O});
+    const StampedPose from{clue.motion->from, T_W_from};
+    SetVelocity(&from, {stamp, T_W_O}, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
     if (!object.T_B_O) {
-      object.T_B_O = Inverse(clue.pose->T_W_B) * PredictPose(object, stamp, params.horizon).T_W_O;
+      object.T_B_O = Inverse(clue.pose->T_W_B) * PlaceByItsPoints(object, clue, stamp, params);
       object.told.reset();
     }
     const Pose T_W_T = clue.pose->T_W_B * *object.T_B_O;
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
-    if (const StampedPose* before = LastBefore(object, stamp)) {
-      object.velocity_O = VelocityBetween(*before, {stamp, T_W_O});
-    }
+    SetVelocity(nullptr, {stamp, T_W_O}, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.T_W_O_estimated) {
     Estimate(*clue.T_W_O_estimated, stamp, params, object);
   } else if (!clue.points.empty() && object.t_k() < stamp) {
-    Bridge(clue.off_W, stamp, params, object);
+    Bridge(clue, stamp, params, object);
   }
   if (clue.Places()) {
     SetMotion(object, after_gap, params);
@@ -210,31 +187,6 @@ bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
   const Time needed = clue.motion != nullptr ? clue.motion->from : stamp;
   const bool goes_on = !(object.LastVelocity() == Twist{});
   return goes_on && needed - object.LastPose().stamp > params.horizon;
-}
-
-void AddPoints(MovingObject& object, const LabelledCloud& cloud,
-               std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
-               ThreadPool& pool) {
-  const Pose T_O_W = Inverse(object.history.back().T_W_O);
-  VoxelMap map_O = object.map_O;
-  ScanUpdate update;
-  if (params.clear_objects_by_rays) update = MissesOf(object, cloud, params, pool);
-  for (std::uint32_t i : points) {
-    const Eigen::Vector3d p_O = T_O_W * cloud.ends_W[i].cast<double>();
-    if (map_O.grid().Addressable(p_O)) update.MarkHit(map_O.grid().KeyOf(p_O));
-  }
-  map_O.Update(update, pool);
-  if (params.solid == SolidMode::kCompletedHull) {
-    const bool one_origin = cloud.origins_W.size() == 1;
-    const Eigen::Vector3f& sensor_W = cloud.origins_W[one_origin ? 0 : points.front()];
-    object.completion = CompletionOf(object, sensor_W.cast<double>());
-  }
-  object = WithMap(std::move(object), std::move(map_O));
-  if (MayBeEstimated(object, params)) {
-    object.last_view = ViewOf(EndsOf(cloud, points), T_O_W, stamp, params);
-  }
-  object.last_seen = stamp;
-  ++object.frames_seen;
 }
 
 }  // namespace clearway

@@ -63,11 +63,4 @@ bool StartsAtAPose(const ObjectMotion& motion, const MovingObject& object);
 bool OutOfReach(const MovingObject& object, const ObjectClue& clue, Time stamp,
                 const SceneParams& params);
 
-// Adds the object's points to its own map, each voxel of O at most once; with
-// params.clear_objects_by_rays also the misses of every ray through what was hit before; with a
-// completed hull also what the view tells of its completion.
-void AddPoints(MovingObject& object, const LabelledCloud& cloud,
-               std::span<const std::uint32_t> points, Time stamp, const SceneParams& params,
-               ThreadPool& pool);
-
 }  // namespace clearway

@@ -31,7 +31,9 @@ std::optional<ObjectIssue> PlaceByPoints(const MovingObject& object, const Label
                                          const FrameLimits& limits, ObjectClue& clue) {
   const ObjectMotion* const motion = clue.motion;
   const bool is_chained = motion != nullptr && StartsAtAPose(*motion, object);
-  if (clue.points.empty() || object.given() || is_chained || clue.pose != nullptr) return {};
+  if (clue.points.empty() || object.given() || is_chained) return {};
+  // Until T_B_O is known a pose tells how the object moves from here on, but not where it is.
+  if (clue.pose != nullptr && object.T_B_O) return {};
   if (object.t_k() >= stamp) return {};  // another frame of that stamp placed it
   const bool from_prediction = motion != nullptr && motion->from > object.t_k();
   const Time at = from_prediction ? motion->from : stamp;  // how far it is predicted
@@ -57,8 +59,8 @@ std::optional<ObjectIssue> PlaceByPoints(const MovingObject& object, const Label
     T_W_O.translation += BackWithin(limits.max_coordinate_m, T_W_O.translation);
     clue.T_W_O_estimated = T_W_O;
   } else if (motion == nullptr) {
-    T_W_O.translation += offset.off_W;
-    clue.off_W = offset.off_W + BackWithin(limits.max_coordinate_m, T_W_O.translation);
+    T_W_O.translation += offset.exact_off_W;
+    clue.off_W = offset.exact_off_W + BackWithin(limits.max_coordinate_m, T_W_O.translation);
   } else if (!params.MendsObjectPoses()) {
     clue.off_W = motion->H_W.rotation.conjugate() * offset.off_W;
   }

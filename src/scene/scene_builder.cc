@@ -51,6 +51,13 @@ void ForgetFarBlocks(const Eigen::Vector3d& sensor_W, const SceneParams& params,
       {sensor_W.array() - params.keep_distance_m, sensor_W.array() + params.keep_distance_m});
 }
 
+// Positions beyond the limit are as if out of bounds: of one object or point, not of its frame.
+SceneParams WithinLimits(SceneParams params, const FrameLimits& limits) {
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(limits.max_coordinate_m);
+  params.bounds_W = Intersection(params.bounds_W, {-reach, reach});
+  return params;
+}
+
 absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const FrameLimits& limits) {
   if (objects.size() > limits.max_objects) {
     return absl::ResourceExhaustedError(absl::StrCat("labels: the scene would hold ",
@@ -70,7 +77,7 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
-    : scene_(SceneSnapshot::Empty(params)),
+    : scene_(SceneSnapshot::Empty(WithinLimits(params, limits))),
       corrections_(params.history),
       limits_(limits),
       pool_(&pool),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/normal_equations.h"
+#include "scene/object_motion.h"
 
 namespace clearway {
 namespace {
@@ -106,7 +107,7 @@ Eigen::Vector3d VelocityOfCenter(const std::vector<Sample>& samples,
 
 Twist VelocityOfTrack(std::span<const StampedPose> track, const Eigen::Vector3d& center_O) {
   const std::vector<Sample> samples = SamplesOf(track, center_O);
-  if (samples.size() < kFewest) return VelocityBetween(track[track.size() - 2], track.back());
+  if (samples.size() < kFewest) return LastMotionOf(track);
   const Eigen::Vector3d turn_rate_O = TurnRate(samples);
   const Eigen::Vector3d up_O = track.back().T_W_O.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d center_mps = VelocityOfCenter(samples, turn_rate_O, up_O);

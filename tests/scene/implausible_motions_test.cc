@@ -83,6 +83,23 @@ TEST_F(ImplausibleMotions, AMotionThatLeadsTooFarIsLeftOutAndNamed) {
   EXPECT_EQ(dut_.Publish()->FindObject(2)->t_k(), At(0));
 }
 
+// The van drives out of the space that there is; the static points of its frames still count.
+TEST_F(ImplausibleMotions, WhatIsBeyondTheLimitIsLeftOutAlone) {
+  for (const bool posed : {false, true}) {
+    dut_.Reset();
+    for (int k = 0; k < 12; ++k) {
+      const double x_m = 90 + 1.5 * k;
+      Frame frame = Showing(0.1 * k, x_m);
+      if (posed && x_m <= 100) frame.poses.push_back({2, Pose::Translation(x_m, 3, 1)});
+      const FrameReport report = Applied(frame);
+      if (k == 11) EXPECT_EQ(report.points_out_of_bounds, frame.points_S.size() - 1);
+    }
+    const ScenePtr scene = dut_.Publish();
+    EXPECT_EQ(scene->stamp, At(1.1));
+    EXPECT_LT(scene->FindObject(2)->last_seen, At(1.1));
+  }
+}
+
 TEST_F(ImplausibleMotions, AMalformedOneRefusesTheFrame) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -145,6 +162,49 @@ TEST_F(TooFastMotions, OfPoses) {
   EXPECT_TRUE(at(0.2, 9).issues.empty());
   ExpectTooFast(at(0.3, 509), 5'000);
   EXPECT_TRUE(at(0.8, 509).issues.empty());
+}
+
+// Two sensors at once: their frames' stamps are 10 microseconds apart. The poses of an object that
+// stands still are off by a centimetre.
+TEST_F(TooFastMotions, NoiseBetweenTwoSensorsIsNoSpeed) {
+  for (const bool by_motion : {false, true}) {
+    for (const auto model : {MotionModel::kLastMotion, MotionModel::kTrack}) {
+      SceneParams params;
+      params.motion = model;
+      SceneBuilder dut(params, FrameLimits{}, pool_);
+      Time last = At(0);
+      for (int k = 0; k < 20; ++k) {
+        Frame frame = Showing(0.1 * (k / 2), 9);
+        frame.stamp += std::chrono::microseconds(10 * (k % 2));
+        frame.sensor_id = k % 2 == 0 ? "front" : "rear";
+        const double off_m = k % 4 < 2 ? 0.01 : -0.01;
+        if (!by_motion) frame.poses.push_back({2, Pose::Translation(9 + off_m * (k % 2), 3, 1)});
+        if (by_motion && k > 0) frame.motions.push_back({2, Pose::Translation(off_m, 0, 0), last});
+        last = frame.stamp;
+        const auto report = dut.Apply(frame);
+        ASSERT_TRUE(report.ok()) << report.status();
+        EXPECT_EQ(report->motions_implausible, 0u);
+      }
+      EXPECT_LT(dut.Publish()->FindObject(2)->SpeedMps(), 0.5);
+    }
+  }
+}
+
+// A centimetre within a nanosecond.
+TEST_F(TooFastMotions, ATinyStepTellsNoVelocity) {
+  Frame first = Showing(0.1, 9);
+  first.motions.push_back({2, Pose::Translation(0.01, 0, 0), At(0.1) - Duration(1)});
+  ASSERT_TRUE(far_.Apply(first).ok());
+  EXPECT_FALSE(far_.Publish()->FindObject(2)->velocity_O.has_value());
+  Frame next = Showing(0.2, 9.1);
+  next.motions.push_back({2, Pose::Translation(0.1, 0, 0), At(0.1)});
+  ASSERT_TRUE(far_.Apply(next).ok());
+  EXPECT_NEAR(far_.Publish()->FindObject(2)->SpeedMps(), 1, 1e-6);
+  Frame soon = Showing(0.2, 9.11);
+  soon.stamp += Duration(1);
+  soon.motions.push_back({2, Pose::Translation(0.01, 0, 0), At(0.2)});
+  ASSERT_TRUE(far_.Apply(soon).ok());
+  EXPECT_NEAR(far_.Publish()->FindObject(2)->SpeedMps(), 1.1, 0.01);
 }
 
 TEST_F(ImplausibleMotions, TheListIsBounded) {

@@ -145,6 +145,36 @@ TEST_F(PointPlacement, PointsWithinTheBoundMoveThePrediction) {
   EXPECT_LT(Object().solid->box_O.Size().maxCoeff(), 1.35);
 }
 
+// Each frame it is a little farther from where it is predicted than in the one before.
+TEST_F(PointPlacement, ABridgedModelDoesNotGrowFrameByFrame) {
+  for (const double aside_m : {0.05, 0.1, 0.15, 0.19, 0.25}) {
+    dut_->Reset();
+    ShowFirst();
+    Eigen::Vector3d center_W(5.5, 0, 0.5);
+    for (int k = 1; k <= 40; ++k) {
+      center_W += Eigen::Vector3d(0.1, aside_m, 0);
+      EXPECT_EQ(Applied(Showing(0.5 + 0.1 * k, center_W)).objects_restarted, 0u);
+    }
+    EXPECT_TRUE(Object().bridged);
+    EXPECT_LT((Center() - center_W).norm(), 0.2) << aside_m;
+    EXPECT_LT(Object().solid->box_O.Size().maxCoeff(), 1.35) << aside_m;
+  }
+}
+
+// Half of it, then the other half, then all of it.
+TEST_F(PointPlacement, ABridgedModelGrowsByViewsOfMoreOfIt) {
+  ShowFirst();
+  for (int k = 6; k < 30; ++k) {
+    Frame frame = FrameAt(0.1 * k);
+    const double length_m = std::min(4.0, 1 + 0.2 * (k - 5));
+    AddObject(frame, 5, Pose::Translation(5 + 0.1 * k + length_m / 2 - 0.5, 0, 0.5),
+              BoxSurface({length_m, 1, 1}, 0.1));
+    EXPECT_EQ(Applied(frame).objects_restarted, 0u);
+  }
+  EXPECT_NEAR(Object().solid->box_O.Size().x(), 4, 0.25);
+  EXPECT_LT((Center() - Eigen::Vector3d(9.4, 0, 0.5)).norm(), 0.3);
+}
+
 // A view of more of it widens its model.
 TEST_F(PointPlacement, ALargerViewIsNoOtherObject) {
   ShowFirst();
@@ -152,6 +182,42 @@ TEST_F(PointPlacement, ALargerViewIsNoOtherObject) {
   AddObject(frame, 5, Pose::Translation(5.6, 0.5, 0.5), BoxSurface({1, 2, 1}, 0.1));
   EXPECT_EQ(Applied(frame).objects_restarted, 0u);
   EXPECT_NEAR(Object().solid->box_O.Size().y(), 2, 0.25);
+}
+
+// Its tracker knows it from the second sighting on: the pose says where B is, the points where the
+// object has gone since the first.
+TEST_F(PointPlacement, TheFirstPoseOfAnObjectThatIsKnownByItsPoints) {
+  for (const auto from_points : {MotionFromPoints::kOff, MotionFromPoints::kAuto}) {
+    for (const double step_m : {0.0, 0.1, 0.5, 1.5, 3.0}) {
+      SceneParams params;
+      params.motion_from_points = from_points;
+      dut_.emplace(params, FrameLimits{}, pool_);
+      for (int k = 0; k < 8; ++k) {
+        const Eigen::Vector3d center_W(5 + step_m * k, 2, 0.5);
+        Frame frame = Showing(0.1 * k, center_W);
+        if (k > 0) frame.poses.push_back({5, Pose::Translation(center_W.x(), 2, 0)});
+        Applied(frame);
+      }
+      EXPECT_LT((Center() - Eigen::Vector3d(5 + 7 * step_m, 2, 0.5)).norm(), 0.15) << step_m;
+      EXPECT_LT(Object().solid->box_O.Size().maxCoeff(), 1.25) << step_m;
+      EXPECT_NEAR(Object().SpeedMps(), 10 * step_m, 0.01) << step_m;
+    }
+  }
+}
+
+// Seen once, and then by its tracker, 22 m away.
+TEST_F(PointPlacement, TheFirstPoseAfterAGap) {
+  for (const double y_m : {0.0, 10.0}) {
+    dut_->Reset();
+    Applied(Showing(0, {5, 0, 0.5}));
+    for (int k = 11; k < 16; ++k) {
+      Frame frame = Showing(0.1 * k, {5 + 2.0 * k, y_m, 0.5});
+      frame.poses.push_back({5, Pose::Translation(5 + 2.0 * k, y_m, 0)});
+      Applied(frame);
+    }
+    EXPECT_LT((Center() - Eigen::Vector3d(35, y_m, 0.5)).norm(), 0.15);
+    EXPECT_LT(Object().solid->box_O.Size().maxCoeff(), 1.25);
+  }
 }
 
 TEST_F(PointPlacement, AnotherFrameOfTheSameStampIsNotGated) {

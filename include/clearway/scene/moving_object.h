@@ -155,6 +155,10 @@ struct MovingObject {
   // For whoever applies frames alone: mirrors do not have them, and they count for no comparison.
   std::optional<ToldPose> told;
   std::optional<LastView> last_view;
+  // While it is bridged: the box of its voxels when it was last placed by more than a prediction,
+  // and of later views of more of it. Points are compared with it. If they were compared with all
+  // voxels, each frame could add a little to what the one before added.
+  std::optional<Aabb> placed_box_O;
 
   Time first_seen;
   Time last_seen;  // last frame with points of it
