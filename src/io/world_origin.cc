@@ -73,6 +73,12 @@ absl::StatusOr<LidarFolder> WithOrigin(LidarFolder folder,
     for (RecordedPose& pose : folder.poses) pose.T_W_S.translation -= origin_m;
     for (RecordedBox& box : folder.boxes) box.T_W_B.translation -= origin_m;
     folder.frames = Moved(std::move(folder.frames), origin_m);
+    if (folder.frames_without) {
+      folder.frames_without = [without = std::move(folder.frames_without),
+                               origin_m](const RowsLeftOut& rows) {
+        return Moved(without(rows), origin_m);
+      };
+    }
   }
   const auto is_far = [](const RecordedPose& pose) { return IsFar(pose.T_W_S); };
   const auto far = static_cast<std::size_t>(std::ranges::count_if(folder.poses, is_far));
