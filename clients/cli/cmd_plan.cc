@@ -12,6 +12,7 @@
 #include "cli/borrowed_objects.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
@@ -127,7 +128,8 @@ void PrintText(std::ostream& out, const Plan& plan, const PlanTask& task) {
 }
 
 void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOutcome& outcome,
-               const PlanTask& task) {
+               const Scenario& scenario) {
+  const PlanTask& task = scenario.task;
   Json json = ToJson(Versioned{outcome.version, outcome.stamp});
   json["horizon_s"] = ToSeconds(outcome.horizon);
   json["inflation_mps"] = outcome.inflation_mps;
@@ -146,6 +148,7 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
                             {"stamp_ns", ToNanoseconds(plan.times[i])},
                             {"configuration", plan.configurations[i]}});
   }
+  json["left_out"] = ToJson(scenario.left_out);
   Print(out, json);
 }
 
@@ -184,6 +187,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
         flags.budget_s, most_s));
   }
   if (!scenario->note.empty()) terminal.err << "note: " << scenario->note << "\n";
+  if (!scenario->left_out.Empty()) terminal.err << "warning: " << LeftOutText(scenario->left_out);
   PrintRobotNotes(scenario->robot, terminal.err);
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
@@ -210,7 +214,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
       PlanWith(**planner, client, *scenario, FromSeconds(flags.budget_s), *version, found);
   if (!outcome.ok()) return outcome.status();
   if (flags.json) {
-    PrintJson(terminal.out, plans, *outcome, scenario->task);
+    PrintJson(terminal.out, plans, *outcome, *scenario);
   } else if (!plans.empty()) {
     PrintText(terminal.out, plans.back().plan, scenario->task);
   }

@@ -154,6 +154,7 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
                             recorded->objects.end());
     scenario.names.merge(recorded->names);
     scenario.note = std::move(recorded->note);
+    scenario.left_out = std::move(recorded->left_out);
   }
   if (auto status = Validate(scenario.task, scenario.robot); !status.ok()) return status;
   return scenario;
