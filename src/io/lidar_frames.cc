@@ -24,6 +24,8 @@ struct OpenScans {
   std::vector<RecordedPose> poses;  // of the range
   std::vector<RecordedBox> boxes;   // of the range, ascending (frame, id)
   std::set<Time> left_out_stamps;   // of frames that do not count
+  // Those whose points turned out to be unreadable: no later motion starts there.
+  mutable std::set<int> unreadable = {};
 };
 
 std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
@@ -32,7 +34,9 @@ std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
 }
 
 const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) {
-  const auto boxes = BoxesOf(open, open.poses[index].frame);
+  const int frame = open.poses[index].frame;
+  if (open.unreadable.contains(frame)) return nullptr;
+  const auto boxes = BoxesOf(open, frame);
   const auto box = std::ranges::lower_bound(boxes, id, {}, &RecordedBox::id);
   return box != boxes.end() && box->id == id ? &*box : nullptr;
 }
@@ -99,7 +103,10 @@ absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
   std::error_code error;
   if (!options.allow_missing_points || std::filesystem::exists(path, error)) {
     const absl::Status status = open.scans->read(path, boxes, frame);
-    if (!status.ok()) return status;
+    if (!status.ok()) {
+      open.unreadable.insert(pose.frame);
+      return status;
+    }
   }
   // Motions of the source itself may start there, too.
   std::erase_if(frame.motions, [&](const ObjectMotion& motion) {
@@ -112,20 +119,25 @@ absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
   return frame;
 }
 
-absl::Status CheckPointFiles(const OpenScans& open) {
-  std::size_t missing = 0;
-  Path first;
+std::vector<std::pair<int, Path>> MissingPoints(const OpenScans& open) {
+  std::vector<std::pair<int, Path>> missing;
   std::error_code error;
   for (const RecordedPose& pose : open.poses) {
-    const Path path = open.scans->points_of(pose.frame);
-    if (std::filesystem::is_regular_file(path, error)) continue;
-    if (missing++ == 0) first = path;
+    Path path = open.scans->points_of(pose.frame);
+    if (!std::filesystem::is_regular_file(path, error)) {
+      missing.emplace_back(pose.frame, std::move(path));
+    }
   }
-  if (missing == 0) return absl::OkStatus();
+  return missing;
+}
+
+absl::Status NoPoints(const std::vector<std::pair<int, Path>>& missing, std::size_t frames) {
+  std::error_code error;
+  const Path& first = missing.front().second;
   const bool exists = std::filesystem::exists(first, error);
   return absl::NotFoundError(absl::StrCat(
-      first.string(), exists ? ": is not a file; " : ": no such file; ", missing, " of ",
-      open.poses.size(),
+      first.string(), exists ? ": is not a file; " : ": no such file; ", missing.size(), " of ",
+      frames,
       " frames have a pose but no file of points (--allow-missing-points goes on without)"));
 }
 
@@ -189,9 +201,9 @@ absl::StatusOr<LidarFolder> FramesOf(LidarScans given) {
         scans->name, ": no frame from ", options.first_frame, " to ", options.last_frame,
         "; the tables hold ", result.poses.front().frame, " to ", result.poses.back().frame));
   }
-  if (!options.allow_missing_points) {
-    const absl::Status status = CheckPointFiles(open);
-    if (!status.ok()) return status;
+  result.missing_points = MissingPoints(open);
+  if (!options.allow_missing_points && !result.missing_points.empty()) {
+    return NoPoints(result.missing_points, open.poses.size());
   }
   result.frames = SourceOf(std::move(open));
   result.frames.description = scans->name;

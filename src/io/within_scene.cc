@@ -97,6 +97,8 @@ void LeaveOut(const RowsLeftOut& rows, LidarFolder& folder) {
   folder.frames.read = std::move(frames.read);
   std::erase_if(folder.poses, [&](const RecordedPose& pose) { return rows.Has(pose); });
   std::erase_if(folder.boxes, [&](const RecordedBox& box) { return rows.Has(box); });
+  std::erase_if(folder.missing_points,
+                [&](const auto& missing) { return rows.frames.contains(missing.first); });
   folder.first_pose = static_cast<std::size_t>(
       std::ranges::lower_bound(folder.poses, first_frame, {}, &RecordedPose::frame) -
       folder.poses.begin());

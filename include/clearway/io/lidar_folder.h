@@ -75,6 +75,8 @@ struct LidarFolder {
   std::vector<RecordedPose> poses;  // ascending frames
   std::size_t first_pose = 0;       // frame k of the range has poses[first_pose + k]
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
+  // Frames of the range without a file of points, where they may be, and the file that is missing.
+  std::vector<std::pair<int, std::filesystem::path>> missing_points;
   // The frames of the range of tables without these rows: only their number and how they are read.
   // Null if no reader made this.
   std::function<FrameSource(const RowsLeftOut&)> frames_without = nullptr;
