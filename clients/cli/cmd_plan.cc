@@ -17,6 +17,7 @@
 #include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
+#include "cli/text.h"
 
 namespace clearway::cli {
 namespace {
@@ -152,6 +153,14 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
   Print(out, json);
 }
 
+absl::Status StartPassed(const SceneClient& client, Time start) {
+  const auto status = client.GetStatus();
+  if (!status.ok()) return status.status();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "start_s: the start is at ", Seconds(start), " of the scene's time, and the scene is of ",
+      Seconds(status->stamp), " already; give a later start_s, or none to start at once"));
+}
+
 // A scenario that starts at once does so when the scene is that old: frames may have come since its
 // objects were added, and may come while this is asked.
 absl::StatusOr<PlanOutcome> PlanWith(const RemotePlanner& planner, const SceneClient& client,
@@ -168,7 +177,7 @@ absl::StatusOr<PlanOutcome> PlanWith(const RemotePlanner& planner, const SceneCl
     const bool too_late = absl::IsInvalidArgument(outcome.status()) &&
                           DetailsOf(outcome.status()).field == "start_ns";
     if (too_late && !scenario.starts_at_once) {
-      return InContext("start_s, in nanoseconds of the scene", outcome.status());
+      return StartPassed(client, scenario.task.start_time);
     }
     if (!too_late || tries == kTries) return outcome;
   }

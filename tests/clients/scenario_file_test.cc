@@ -199,6 +199,13 @@ TEST(ScenarioFile, AFileThatIsNotThere) {
   EXPECT_THAT(std::string(dut.status().message()), HasSubstr("/nowhere/s.json: no such scenario"));
 }
 
+TEST(ScenarioFile, AStartBeforeTheScenesIsNamedInSeconds) {
+  EXPECT_EQ(
+      MessageOf(Spoilt("\"start_s\": 2", "\"start_s\": -1")),
+      "s.json: start_s: is -1 s; it must not be below 0: times count from the newest stamp of "
+      "the scene");
+}
+
 std::string WithPeople(const std::string& more = "") {
   return Spoilt("\"objects\"", R"("tracks": {"format": "ucy", "file": "people.txt", "for_s": 10,
                                 "radius_m": 0.3, "height_m": 1.8)" +
