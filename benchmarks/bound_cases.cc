@@ -164,9 +164,9 @@ class Recordings {
     Add(OfBoxes(name, group, *folder, has_scans));
   }
   void AddTracks(const std::string& name, const std::string& type,
-                 const absl::StatusOr<std::vector<cli::Track>>& tracks) {
-    if (!tracks.ok()) return Add(tracks.status());
-    Add(OfBoxes(name, name, FolderOf(*tracks, type), false));
+                 const absl::StatusOr<cli::Tracks>& recorded) {
+    if (!recorded.ok()) return Add(recorded.status());
+    Add(OfBoxes(name, name, FolderOf(recorded->tracks, type), false));
   }
   absl::StatusOr<std::vector<BoundRecording>> Take() && {
     if (!status_.ok()) return status_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clearway/planning/ompl_log.h"
 #include "server/config.h"
 #include "server/memory_use.h"
 #include "server/server.h"
@@ -29,6 +30,13 @@ sigset_t BlockSignals() {
   sigaddset(&signals, SIGINT);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   return signals;
+}
+
+// OMPL warns of its own defaults, as of cells of a projection that an area without an extent has:
+// nothing that an operator could change.
+void ToLog(OmplLevel level, const std::string& text) {
+  const bool is_error = level == OmplLevel::kError;
+  spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "OMPL: {}", text);
 }
 
 int Serve(const ServerConfig& config) {
@@ -60,6 +68,7 @@ int Main(const std::vector<std::string>& arguments) {
     return kBadUsage;
   }
   spdlog::set_level(spdlog::level::from_str(line->config.log_level));
+  WriteOmplLog(ToLog);
   for (const std::string& warning : line->warnings) spdlog::warn("{}", warning);
   if (!line->help.empty() || line->print_config) {
     std::fputs(line->help.empty() ? ToToml(line->config).c_str() : line->help.c_str(), stdout);

@@ -60,11 +60,27 @@ absl::Status ResampleTo(double resolution_m, const std::string& file, Prior& pri
   const double from_m = read->map.grid().resolution_m();
   if (SameResolution(from_m, resolution_m)) return absl::OkStatus();
   const auto map = Resample(read->map, resolution_m);
+  if (absl::IsResourceExhausted(map.status())) {
+    return absl::ResourceExhaustedError(absl::StrCat(
+        file, ": ", map.status().message(),
+        ". Start the server with larger voxels (clearway-server --scene-resolution-m); the map's "
+        "have ",
+        NumberText(from_m), " m"));
+  }
   if (!map.ok()) return InContext(file, map.status());
   auto bytes = SerializeOctomap(*map, OctomapFormat::kBinary);
   if (!bytes.ok()) return InContext(file, bytes.status());
   prior = {MapFormat::kBt, *std::move(bytes), from_m};
   return absl::OkStatus();
+}
+
+// What helps if the server refused a map because of its voxels' size.
+absl::Status WithAdvice(const absl::Status& refused, const std::string& file, const Prior& prior,
+                        double resolution_m) {
+  const absl::Status status = InContext(file, refused);
+  const auto read = ParseOctomap(file, prior.bytes);
+  if (!read.ok() || SameResolution(read->map.grid().resolution_m(), resolution_m)) return status;
+  return absl::Status(status.code(), absl::StrCat(status.message(), "; --resample converts it"));
 }
 
 Json AsJson(const Versioned& scene, const Prior& prior, double resolution_m) {
@@ -95,7 +111,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     if (auto status = ResampleTo(resolution_m, flags.file, *prior); !status.ok()) return status;
   }
   const auto scene = SceneClient(*connection).LoadPrior(prior->format, prior->bytes);
-  if (!scene.ok()) return InContext(flags.file, scene.status());
+  if (!scene.ok()) return WithAdvice(scene.status(), flags.file, *prior, resolution_m);
   if (flags.json) {
     Print(terminal.out, AsJson(*scene, *prior, resolution_m));
   } else {

@@ -12,10 +12,12 @@
 #include "cli/borrowed_objects.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
+#include "cli/text.h"
 
 namespace clearway::cli {
 namespace {
@@ -127,7 +129,8 @@ void PrintText(std::ostream& out, const Plan& plan, const PlanTask& task) {
 }
 
 void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOutcome& outcome,
-               const PlanTask& task) {
+               const Scenario& scenario) {
+  const PlanTask& task = scenario.task;
   Json json = ToJson(Versioned{outcome.version, outcome.stamp});
   json["horizon_s"] = ToSeconds(outcome.horizon);
   json["inflation_mps"] = outcome.inflation_mps;
@@ -146,7 +149,16 @@ void PrintJson(std::ostream& out, const std::vector<Found>& plans, const PlanOut
                             {"stamp_ns", ToNanoseconds(plan.times[i])},
                             {"configuration", plan.configurations[i]}});
   }
+  json["left_out"] = ToJson(scenario.left_out);
   Print(out, json);
+}
+
+absl::Status StartPassed(const SceneClient& client, Time start) {
+  const auto status = client.GetStatus();
+  if (!status.ok()) return status.status();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "start_s: the start is at ", Seconds(start), " of the scene's time, and the scene is of ",
+      Seconds(status->stamp), " already; give a later start_s, or none to start at once"));
 }
 
 // A scenario that starts at once does so when the scene is that old: frames may have come since its
@@ -165,7 +177,7 @@ absl::StatusOr<PlanOutcome> PlanWith(const RemotePlanner& planner, const SceneCl
     const bool too_late = absl::IsInvalidArgument(outcome.status()) &&
                           DetailsOf(outcome.status()).field == "start_ns";
     if (too_late && !scenario.starts_at_once) {
-      return InContext("start_s, in nanoseconds of the scene", outcome.status());
+      return StartPassed(client, scenario.task.start_time);
     }
     if (!too_late || tries == kTries) return outcome;
   }
@@ -184,6 +196,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
         flags.budget_s, most_s));
   }
   if (!scenario->note.empty()) terminal.err << "note: " << scenario->note << "\n";
+  if (!scenario->left_out.Empty()) terminal.err << "warning: " << LeftOutText(scenario->left_out);
   PrintRobotNotes(scenario->robot, terminal.err);
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
@@ -210,7 +223,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
       PlanWith(**planner, client, *scenario, FromSeconds(flags.budget_s), *version, found);
   if (!outcome.ok()) return outcome.status();
   if (flags.json) {
-    PrintJson(terminal.out, plans, *outcome, scenario->task);
+    PrintJson(terminal.out, plans, *outcome, *scenario);
   } else if (!plans.empty()) {
     PrintText(terminal.out, plans.back().plan, scenario->task);
   }

@@ -4,9 +4,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
-#include "clearway/base/number_text.h"
 #include "clearway/client/frame_sender.h"
-#include "clearway/map/resolution.h"
 #include "cli/ack_tally.h"
 #include "cli/commands.h"
 #include "cli/frame_range.h"
@@ -16,6 +14,7 @@
 #include "cli/open_source.h"
 #include "cli/progress.h"
 #include "cli/server_flags.h"
+#include "cli/source_notes.h"
 #include "cli/text.h"
 #include "cli/told_frames.h"
 
@@ -66,14 +65,31 @@ class Pace {
   Time first_;  // the first frame's
 };
 
+// Frames that could not be read.
+struct Unread {
+  std::size_t count = 0;
+  std::size_t first = 0;
+  absl::Status why;  // the first
+  bool stopped = false;
+};
+
 // Frames of the source through one stream; returns what stopped it early.
 absl::Status SendAll(const FrameSource& source, FrameRange range, const Flags& flags,
-                     FrameSender& sender, AckTally& tally, ProgressBar& progress) {
+                     FrameSender& sender, AckTally& tally, ProgressBar& progress, Unread& unread) {
   Pace pace(flags.rate);
   FrameTeller teller(flags.errors);
   for (std::size_t i = range.first; i < range.end; ++i) {
     auto frame = source.read(i);
-    if (!frame.ok()) return frame.status();
+    if (!frame.ok()) {
+      if (unread.count++ == 0) {
+        unread.first = i;
+        unread.why = frame.status();
+      }
+      unread.stopped = !flags.keep_going;
+      if (unread.stopped) return absl::OkStatus();
+      source.left_out->AddFrame(absl::StrCat("frame ", i, ": ", frame.status().message()));
+      continue;
+    }
     frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
     pace.WaitFor(frame->stamp);
     tally.Sent(*frame);
@@ -150,30 +166,13 @@ void PrintText(std::ostream& out, const AckTally::Counts& counts) {
   for (const std::string& line : counts.objects.Lines()) out << line << "\n";
 }
 
-// Not an error: coarser maps are often wanted.
-void NoteResolution(const FrameSource& source, const SceneParams& params, std::ostream& err) {
-  if (SameResolution(source.resolution_m, params.resolution_m)) return;
-  err << "note: these frames suit voxels of " << NumberText(source.resolution_m)
-      << " m; the server has " << NumberText(params.resolution_m)
-      << " m (clearway-server --scene-resolution-m)\n";
-}
-
-// Not an error either: it costs time to register scans.
-void NotePoseError(const FrameSource& source, const SceneParams& params, std::ostream& err) {
-  const bool drift = source.sensor_pose_error_m > 0 || source.sensor_pose_error_rad > 0;
-  if (!drift || params.MendsSensorPoses()) return;
-  err << "note: the sensor's poses are off by about " << source.sensor_pose_error_m
-      << " m; the server takes them as they are (clearway-server --scene-sensor-pose-error-m "
-      << source.sensor_pose_error_m << " --scene-sensor-pose-error-rad "
-      << source.sensor_pose_error_rad << " registers scans to the map)\n";
-}
-
-// The server's maps are where the frames are.
-void NoteOrigin(const FrameSource& source, std::ostream& err) {
-  if (source.origin_m.isZero(0)) return;
-  const std::string origin = OriginText(source.origin_m);
-  err << "note: the origin " << origin << " is subtracted; clearway export --format ply --origin "
-      << origin << " adds it to a map\n";
+absl::Status Stopped(const Unread& unread, const FrameSource& source,
+                     const AckTally::Counts& counts) {
+  return InContext(
+      absl::StrCat("stopped at frame ", unread.first, " of ", source.frame_count, "; ",
+                   Plural(counts.answered, "frame"), counts.answered == 1 ? " was" : " were",
+                   " sent; --keep-going leaves such frames out"),
+      unread.why);
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -184,11 +183,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
 
-  if (!flags.quiet) {
-    NoteResolution(*source, (*connection)->server().params, terminal.err);
-    NotePoseError(*source, (*connection)->server().params, terminal.err);
-    NoteOrigin(*source, terminal.err);
-  }
+  if (!flags.quiet) PrintSourceNotes(*source, (*connection)->server().params, terminal.err);
 
   AckTally tally;
   std::ostream nowhere(nullptr);
@@ -204,7 +199,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
   absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, tally, note));
   if (!status.ok()) return status;
-  status = SendAll(*source, *range, flags, sender, tally, progress);
+  Unread unread;
+  status = SendAll(*source, *range, flags, sender, tally, progress, unread);
   const std::uint64_t reconnects = sender.state().reconnects;
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
@@ -212,6 +208,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   progress.Update(counts.answered, counts.points);
   progress.Finish();
   if (!status.ok()) return status;
+  if (unread.stopped) return Stopped(unread, *source, counts);
 
   if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
@@ -223,6 +220,11 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
     return InContext(absl::StrCat("frame ", counts.first_refused_sequence, " of ",
                                   counts.first_refused_sensor, " was refused"),
                      counts.first_refusal);
+  }
+  if (unread.count > 0) {
+    return InContext(absl::StrCat(Plural(unread.count, "frame"),
+                                  " could not be read, the first: frame ", unread.first),
+                     unread.why);
   }
   if (counts.lost > 0) {
     return absl::DataLossError(absl::StrCat("the server restarted: its scene lacks the first ",
@@ -260,8 +262,10 @@ void AddReplay(Cli& cli) {
           "at once")
       ->check(Between(0, 1e6))
       ->capture_default_str();
-  command->add_flag("--keep-going", flags->keep_going,
-                    "Go on after a refused frame (the exit code is 1 still)");
+  command->add_flag(
+      "--keep-going", flags->keep_going,
+      "Go on after a frame that cannot be read or that the server\nrefuses; it is left "
+      "out (the exit code is 1 still)");
   command
       ->add_option("--sensor-run", flags->sensor_run,
                    "Part of each frame's name. With the same number, frames\nthat the server has "

@@ -107,6 +107,30 @@ std::string OriginOf(const FrameSource& source) {
   return absl::StrCat("origin      ", OriginText(source.origin_m), ", subtracted\n");
 }
 
+constexpr std::size_t kMaxMissing = 5;  // named
+
+std::string MissingText(const LidarFolder& folder) {
+  const auto& missing = folder.missing_points;
+  if (missing.empty()) return "";
+  std::string text = absl::StrCat("missing     ", Plural(missing.size(), "file"), " of points:\n");
+  for (std::size_t i = 0; i < std::min(missing.size(), kMaxMissing); ++i) {
+    absl::StrAppend(&text, "            frame ", missing[i].first, ": ", missing[i].second.string(),
+                    "\n");
+  }
+  if (missing.size() > kMaxMissing) {
+    absl::StrAppend(&text, "            and ", Grouped(missing.size() - kMaxMissing), " more\n");
+  }
+  return text;
+}
+
+Json MissingJson(const LidarFolder& folder) {
+  Json files = Json::array();
+  for (const auto& [frame, path] : folder.missing_points) {
+    if (files.size() < kMaxMissing) files.push_back({{"frame", frame}, {"file", path.string()}});
+  }
+  return {{"count", folder.missing_points.size()}, {"first", files}};
+}
+
 }  // namespace
 
 absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const SourceFlags& flags) {
@@ -124,7 +148,7 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
       absl::StrCat("source      ", folder->frames.description, "\n", "frames      ",
                    Grouped(folder->frames.frame_count), " over ", Seconds(last - first), ", ",
                    Grouped(count->scans), " with points\n", "points      ", Grouped(count->points),
-                   NotFinite(*count), "\n", "sensor      moves ",
+                   NotFinite(*count), "\n", MissingText(*folder), "sensor      moves ",
                    Fixed(SensorPath(folder->poses), 1), " m", DriftOf(folder->frames), "\n",
                    OriginOf(folder->frames), "labels      ", Plural(count->labels.size(), "object"),
                    "\nobjects     ", tracks.size(), "\n", tracks.empty() ? "" : TableOf(tracks));
@@ -145,6 +169,7 @@ absl::StatusOr<FileInfo> InfoOfLidarFolder(const std::string& path, const Source
                {"origin_m", ToJson(folder->frames.origin_m)},
                {"sensor_pose_error_m", folder->frames.sensor_pose_error_m},
                {"sensor_pose_error_rad", folder->frames.sensor_pose_error_rad},
+               {"missing_points", MissingJson(*folder)},
                {"left_out", ToJson(*folder->frames.left_out)},
                {"objects", JsonOf(tracks)}};
   return info;

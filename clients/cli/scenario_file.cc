@@ -83,6 +83,12 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
   if (fields.Has("start_s")) {
     const auto start = fields.Seconds("start_s");
     if (!start.ok()) return start.status();
+    if (*start < Duration::zero()) {
+      return fields.Error("start_s",
+                          absl::StrCat("is ", NumberText(ToSeconds(*start)),
+                                       " s; it must not be below 0: times count from the newest "
+                                       "stamp of the scene"));
+    }
     task.start_time = Time() + *start;
   }
   const auto limit_s = fields.Number("time_limit_s");
@@ -154,6 +160,7 @@ absl::StatusOr<Scenario> ScenarioOf(const Json& json, const std::filesystem::pat
                             recorded->objects.end());
     scenario.names.merge(recorded->names);
     scenario.note = std::move(recorded->note);
+    scenario.left_out = std::move(recorded->left_out);
   }
   if (auto status = Validate(scenario.task, scenario.robot); !status.ok()) return status;
   return scenario;

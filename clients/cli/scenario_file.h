@@ -9,6 +9,7 @@
 
 #include "absl/status/statusor.h"
 #include "clearway/collision/plan_task.h"
+#include "clearway/io/left_out.h"
 #include "clearway/scene/given_object.h"
 
 namespace clearway::cli {
@@ -22,6 +23,7 @@ struct Scenario {
   std::vector<GivenObject> objects;       // that the scene gets for it
   std::map<ObjectId, std::string> names;  // of those that the file describes
   std::string note;                       // for people, if there is something to be said
+  LeftOut left_out;                       // of the recording that it names
   bool solvable = true;
   std::optional<double> optimum_s;  // no plan arrives earlier, in seconds after the start
 };

@@ -26,19 +26,42 @@ void Move(const std::optional<WorldOrigin>& origin, std::vector<Track>& tracks) 
   }
 }
 
-// A scene takes nothing that is farther away.
-absl::Status CheckNear(const JsonFields& fields, const std::vector<Track>& tracks) {
-  const auto limit_m = static_cast<int>(FrameLimits().max_coordinate_m);
-  for (const Track& track : tracks) {
+bool IsFar(const Sighting& seen) {
+  return seen.T_W_O.translation.cwiseAbs().maxCoeff() > FrameLimits().max_coordinate_m;
+}
+
+std::string FarText(const Sighting& seen) {
+  return absl::StrCat("at ", OriginText(seen.T_W_O.translation), ", beyond the limit of ",
+                      static_cast<int>(FrameLimits().max_coordinate_m), " m from the origin");
+}
+
+// A scene takes nothing that is farther away. Such rows of a table are left out, unless most are.
+absl::Status LeaveOutFar(const JsonFields& fields, const std::string& file, Tracks& recorded) {
+  std::size_t rows = 0, far_rows = 0;
+  const Sighting* first_far = nullptr;
+  for (const Track& track : recorded.tracks) {
     for (const Sighting& seen : track.seen) {
-      const Eigen::Vector3d& p_W = seen.T_W_O.translation;
-      if (p_W.cwiseAbs().maxCoeff() <= limit_m) continue;
-      return fields.Error(
-          "file",
-          absl::StrCat("has something at ", OriginText(p_W), ", beyond the limit of ", limit_m,
-                       " m from the origin; \"origin_m\": \"first\" or [x, y, z] moves it"));
+      rows += seen.line > 0;
+      if (!IsFar(seen)) continue;
+      const bool is_first = first_far == nullptr || (first_far->line > 0 && seen.line == 0);
+      if (is_first) first_far = &seen;
+      far_rows += seen.line > 0;
     }
   }
+  if (first_far == nullptr) return absl::OkStatus();
+  if (first_far->line == 0 || 2 * far_rows > rows) {
+    return fields.Error("file", absl::StrCat("has something ", FarText(*first_far),
+                                             "; \"origin_m\": \"first\" or [x, y, z] moves it"));
+  }
+  for (Track& track : recorded.tracks) {
+    std::erase_if(track.seen, [&](const Sighting& seen) {
+      if (!IsFar(seen)) return false;
+      recorded.left_out.AddRow(
+          absl::StrCat(file, ", line ", seen.line, ": ", track.name, " is ", FarText(seen)));
+      return true;
+    });
+  }
+  std::erase_if(recorded.tracks, [](const Track& track) { return track.seen.empty(); });
   return absl::OkStatus();
 }
 
@@ -59,8 +82,8 @@ absl::StatusOr<TrackWindow> ParseWindow(const JsonFields& fields) {
   return TrackWindow{*from_s, *for_s};
 }
 
-absl::StatusOr<std::vector<Track>> ReadTracks(const JsonFields& fields, const Json& value,
-                                              const std::string& path) {
+absl::StatusOr<Tracks> ReadTracks(const JsonFields& fields, const Json& value,
+                                  const std::string& path) {
   const auto format = fields.Text("format");
   if (!format.ok()) return format.status();
   if (*format == "ucy") return ReadUcyTracks(value, path);
@@ -98,11 +121,13 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
   if (!window.ok()) return window.status();
   const auto origin = RecordedOrigin(*fields);
   if (!origin.ok()) return origin.status();
-  auto tracks = ReadTracks(*fields, value, path);
-  if (!tracks.ok()) return tracks.status();
-  if (value.at("format") != "boxes") Move(*origin, *tracks);
-  if (auto status = CheckNear(*fields, *tracks); !status.ok()) return status;
-  const Range range = RangeOf(*tracks);
+  const auto file = fields->Text("file");
+  if (!file.ok()) return file.status();
+  auto recorded = ReadTracks(*fields, value, path);
+  if (!recorded.ok()) return recorded.status();
+  if (value.at("format") != "boxes") Move(*origin, recorded->tracks);
+  if (auto status = LeaveOutFar(*fields, *file, *recorded); !status.ok()) return status;
+  const Range range = RangeOf(recorded->tracks);
   const bool any_moves = range.from_s <= range.until_s;
   const std::string lasts = absl::StrFormat("from %.10g to %.10g s", range.from_s, range.until_s);
   if (any_moves && window->from_s >= range.until_s && window->from_s > 0) {
@@ -110,6 +135,7 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
         "from_s", absl::StrFormat("is %.10g; the recording lasts %s", window->from_s, lasts));
   }
   TrackObjects result;
+  result.left_out = std::move(recorded->left_out);
   const double ends_s = window->from_s + window->for_s;
   if (any_moves && ends_s > range.until_s) {
     result.note = absl::StrFormat(
@@ -117,9 +143,7 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
         "goes straight on",
         path, lasts, ends_s);
   }
-  const auto file = fields->Text("file");
-  if (!file.ok()) return file.status();
-  for (const Track& track : *tracks) {
+  for (const Track& track : recorded->tracks) {
     if (std::abs(track.seen.front().t_s) > kLongest_s || track.seen.back().t_s > kLongest_s) {
       return fields->Error("file", absl::StrCat("its times are too long, beyond ",
                                                 NumberText(kLongest_s), " s either way"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "clearway/io/left_out.h"
 #include "clearway/scene/given_object.h"
 #include "cli/json.h"
 
@@ -16,6 +17,7 @@ struct TrackObjects {
   std::vector<GivenObject> objects;
   std::map<ObjectId, std::string> names;  // as in "person 12 of ucy/zara01_obsmat.txt"
   std::string note;                       // if the window ends after the recording
+  LeftOut left_out;                       // of the recording
 };
 
 // {"format": ..., "file": ..., "from_s": ..., "for_s": ..., and the format's own}: those who are

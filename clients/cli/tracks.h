@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "clearway/io/left_out.h"
 #include "clearway/io/world_origin.h"
 #include "clearway/scene/given_object.h"
 #include "cli/json.h"
@@ -19,6 +20,7 @@ struct Sighting {
   double t_s = 0;
   Pose T_W_O;
   Eigen::Vector3d v_W_mps = Eigen::Vector3d::Zero();
+  int line = 0;  // of the recording's table; 0 if it is no row of one
 };
 
 // One thing, of one size. A plain value.
@@ -29,6 +31,11 @@ struct Track {
   std::string name = {};       // kind and id in the recording, as in "person 12"
 };
 
+struct Tracks {
+  std::vector<Track> tracks;
+  LeftOut left_out;  // of the recording
+};
+
 // From when and for how long a recording counts.
 struct TrackWindow {
   double from_s = 0, for_s = 0;
@@ -36,9 +43,9 @@ struct TrackWindow {
 
 // Each reads what the fields of a scenario's "tracks" name; a field that is not of the format is an
 // error. The formats are in docs/formats.md.
-absl::StatusOr<std::vector<Track>> ReadUcyTracks(const Json& value, const std::string& path);
-absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::string& path);
-absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value, const std::string& path);
+absl::StatusOr<Tracks> ReadUcyTracks(const Json& value, const std::string& path);
+absl::StatusOr<Tracks> ReadBoxTracks(const Json& value, const std::string& path);
+absl::StatusOr<Tracks> ReadCommonRoadTracks(const Json& value, const std::string& path);
 
 // The field "file", in the folder that the environment's CLEARWAY_DATA names: NOT_FOUND, saying so,
 // if it is not there.

@@ -50,16 +50,12 @@ std::map<int, double> SecondsOf(const std::vector<RecordedPose>& poses) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::string& path) {
+absl::StatusOr<Tracks> ReadBoxTracks(const Json& value, const std::string& path) {
   const auto fields =
       JsonFields::Of(value, path, {"format", "file", "from_s", "for_s", "poses", "origin_m"});
   if (!fields.ok()) return fields.status();
   const auto folder = OpenTables(*fields);
   if (!folder.ok()) return folder.status();
-  // A plan does not show that its world is incomplete.
-  if (folder->frames.left_out->rows > 0) {
-    return fields->Error("file", folder->frames.left_out->reasons.front());
-  }
   const std::map<int, double> seconds = SecondsOf(folder->poses);
   std::map<ObjectId, Track> by_id;
   for (const RecordedBox& box : folder->boxes) {
@@ -71,13 +67,13 @@ absl::StatusOr<std::vector<Track>> ReadBoxTracks(const Json& value, const std::s
     largest.size_m = largest.size_m.cwiseMax(box.size_m);
     track.seen.push_back({seconds.at(box.frame), box.T_W_B});
   }
-  std::vector<Track> tracks;
+  Tracks result{{}, *folder->frames.left_out};
   for (auto& [id, track] : by_id) {
     GuessVelocities(kVelocityOver_s, track);
     track.name = absl::StrCat("track ", id);
-    tracks.push_back(std::move(track));
+    result.tracks.push_back(std::move(track));
   }
-  return tracks;
+  return result;
 }
 
 }  // namespace clearway::cli

@@ -145,8 +145,7 @@ absl::StatusOr<XmlElement> LoadCommonRoad(const std::filesystem::path& file) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value,
-                                                        const std::string& path) {
+absl::StatusOr<Tracks> ReadCommonRoadTracks(const Json& value, const std::string& path) {
   const auto fields = JsonFields::Of(
       value, path, {"format", "file", "from_s", "for_s", "height_m", "road_edges", "origin_m"});
   if (!fields.ok()) return fields.status();
@@ -162,11 +161,13 @@ absl::StatusOr<std::vector<Track>> ReadCommonRoadTracks(const Json& value,
   if (!step_s.ok()) return step_s.status();
   if (*step_s <= 0) return root->Error("timeStepSize: expected a number above 0");
   auto tracks = TracksOf(*root, {*step_s, *height_m});
-  if (!tracks.ok() || !*with_edges) return tracks;
-  const auto edges = RoadEdgesOf(*root, *height_m);
-  if (!edges.ok()) return edges.status();
-  tracks->insert(tracks->end(), edges->begin(), edges->end());
-  return tracks;
+  if (!tracks.ok()) return tracks.status();
+  if (*with_edges) {
+    const auto edges = RoadEdgesOf(*root, *height_m);
+    if (!edges.ok()) return edges.status();
+    tracks->insert(tracks->end(), edges->begin(), edges->end());
+  }
+  return Tracks{*std::move(tracks), {}};
 }
 
 }  // namespace clearway::cli

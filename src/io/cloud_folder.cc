@@ -10,6 +10,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "io/cloud_names.h"
 #include "io/cloud_points.h"
@@ -193,6 +194,33 @@ absl::StatusOr<Posed> Associate(const NamedClouds& named, const PoseTable& table
                    table.row_count, " poses of ", table_path.string(), " have none"));
 }
 
+std::string SpanText(Time first, Time last) {
+  return absl::StrFormat("from %.2f to %.2f s", ToSeconds(first - Time()),
+                         ToSeconds(last - Time()));
+}
+
+// Says how the names were read: they may be of another kind.
+absl::Status NoPoses(const Path& folder, const NamedClouds& named, const PoseTable& table,
+                     const Path& table_path) {
+  std::string text = absl::StrCat(folder.string(), ": none of ", named.clouds.size(),
+                                  " clouds has a pose in ", table_path.string());
+  if (named.naming == CloudNaming::kStamps && table.stamped && !table.rows.empty()) {
+    const auto [first, last] = std::ranges::minmax_element(
+        table.rows, {}, [](const TablePose& row) { return row.pose.stamp; });
+    absl::StrAppend(&text, "; their names were read as stamps ",
+                    SpanText(named.clouds.front().stamp, named.clouds.back().stamp),
+                    ", the table's stamps are ", SpanText(first->pose.stamp, last->pose.stamp),
+                    ". Names that number the table's rows (0.pcd, 1.pcd, ...) need no stamps");
+  } else if (named.naming == CloudNaming::kNumbers) {
+    absl::StrAppend(&text, "; their names were read as numbers of its ", table.row_count,
+                    " rows, counted from 0, from ", named.clouds.front().number, " to ",
+                    named.clouds.back().number,
+                    ". Stamps have a decimal point or 10, 13, 16 or 19 "
+                    "digits");
+  }
+  return absl::InvalidArgumentError(text);
+}
+
 std::string Described(const std::string& name, const Posed& posed, const Path& table_path,
                       const CloudPoints& first, const std::string& label_field) {
   std::string text =
@@ -231,11 +259,7 @@ absl::StatusOr<LidarFolder> OpenCloudFolder(const Path& given, const CloudFolder
   if (!named.ok()) return named.status();
   auto posed = Associate(*named, *table, *table_path, folder.string(), *scans.left_out);
   if (!posed.ok()) return posed.status();
-  if (posed->poses.empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(folder.string(), ": none of ",
-                                                   named->clouds.size(), " clouds has a pose in ",
-                                                   table_path->string()));
-  }
+  if (posed->poses.empty()) return NoPoses(folder, *named, *table, *table_path);
   const auto first = ReadCloud(posed->clouds.begin()->second, options.label_field);
   if (!first.ok()) return first.status();
 

@@ -61,9 +61,24 @@ std::optional<Time> StampOf(const Ending& ending) {
   return TimeFromNanoseconds(*nanoseconds);
 }
 
+std::vector<std::int64_t> NumbersOf(const std::vector<NamedCloud>& clouds) {
+  std::vector<std::int64_t> numbers;
+  for (const NamedCloud& cloud : clouds) numbers.push_back(cloud.number);
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
+// Whether these ascending whole numbers, all with zeros in front, count clouds: as times they would
+// be 1970's, and a unit or two apart.
+bool AreCounts(const std::vector<std::int64_t>& ascending) {
+  if (ascending.empty()) return false;
+  const auto steps = static_cast<std::int64_t>(ascending.size()) - 1;
+  return ascending.back() - ascending.front() <= 2 * steps;
+}
+
 // Sets stamps or numbers if all names have them.
 CloudNaming Read(std::vector<NamedCloud>& clouds) {
-  bool stamps = true, numbers = true;
+  bool stamps = true, numbers = true, padded = true;
   std::optional<std::string> prefix;
   for (NamedCloud& cloud : clouds) {
     const auto ending = EndingOf(cloud.path.stem().string());
@@ -73,9 +88,11 @@ CloudNaming Read(std::vector<NamedCloud>& clouds) {
     const auto number = ending->has_point ? std::nullopt : Number(ending->whole);
     stamps &= stamp.has_value();
     numbers &= number.has_value();
+    padded &= ending->whole.starts_with('0');
     cloud.stamp = stamp.value_or(Time());
     cloud.number = number.value_or(0);
   }
+  if (stamps && numbers && padded && AreCounts(NumbersOf(clouds))) return CloudNaming::kNumbers;
   return stamps ? CloudNaming::kStamps : numbers ? CloudNaming::kNumbers : CloudNaming::kOther;
 }
 

@@ -35,8 +35,9 @@ struct NamedClouds {
 };
 
 // A stamp is a number with a decimal point, in seconds, or a whole number of 10, 13, 16 or 19
-// digits, in seconds, milli-, micro- or nanoseconds. INVALID_ARGUMENT if two clouds have the same
-// stamp or number.
+// digits, in seconds, milli-, micro- or nanoseconds; but whole numbers with zeros in front that
+// ascend by two at most, on average, are numbers (KITTI's 0000000000). INVALID_ARGUMENT if two
+// clouds have the same stamp or number.
 absl::StatusOr<NamedClouds> NameClouds(std::vector<std::filesystem::path> paths);
 
 // The row of a table that each cloud belongs to; none for those that it has no row for.

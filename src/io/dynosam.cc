@@ -58,32 +58,6 @@ const RecordedPose* StartOf(const Logs& logs, int frame, ObjectId id, const Pose
   return is_first && IsIdentity(H_W) ? nullptr : PoseOf(logs.poses, frame - 1);
 }
 
-bool HasMotion(const std::vector<ObjectMotion>& motions, ObjectId id) {
-  return std::ranges::any_of(motions, [&](const ObjectMotion& motion) { return motion.id == id; });
-}
-
-// After a gap in an object's track: the motion from its last pose, where the log has none.
-void AddMotionsOverGaps(const Logs& logs, std::map<int, std::vector<ObjectMotion>>& motions) {
-  constexpr Duration kLongestGap = std::chrono::seconds(10);
-  struct Last {
-    int frame;
-    Time stamp;
-    Pose T_W_B;
-  };
-  std::map<ObjectId, Last> last;
-  for (const auto& [key, T_W_B] : logs.object_poses) {  // by ascending frames
-    const auto [frame, id] = key;
-    const RecordedPose* const camera = PoseOf(logs.poses, frame);
-    if (camera == nullptr) continue;
-    const auto before = last.find(id);
-    if (before != last.end() && before->second.frame < frame - 1 &&
-        !HasMotion(motions[frame], id) && camera->stamp - before->second.stamp <= kLongestGap) {
-      motions[frame].push_back({id, T_W_B * Inverse(before->second.T_W_B), before->second.stamp});
-    }
-    last[id] = {frame, camera->stamp, T_W_B};
-  }
-}
-
 std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, Unused& unused) {
   std::map<int, std::vector<ObjectMotion>> motions;
   for (const auto& [key, H_W] : logs.object_motions) {
@@ -99,7 +73,6 @@ std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, Unused& unu
       motions[frame].push_back({id, H_W, start->stamp});
     }
   }
-  AddMotionsOverGaps(logs, motions);
   return motions;
 }
 
@@ -203,11 +176,10 @@ absl::StatusOr<LidarFolder> OpenDynosam(const Path& given, const DynosamOptions&
   if (!logs.ok()) return logs.status();
   Unused unused;
   const auto content = ContentOf(*logs, options, unused);
-  // Motions are the log's, not those between boxes.
-  const bool poses_asked = options.objects == LidarObjects::kPoses;
   LidarScans scans;
+  scans.has_motions = true;
   scans.name = absl::StrCat("DynoSAM logs ", (module->folder / module->name).string(), "_*");
-  scans.options = {.objects = poses_asked ? LidarObjects::kPoses : LidarObjects::kNone,
+  scans.options = {.objects = options.objects,
                    .first_frame = options.first_frame,
                    .last_frame = options.last_frame,
                    .sensor_id = options.sensor_id};

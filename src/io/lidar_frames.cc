@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -19,9 +20,12 @@ constexpr double kGpsError_m = 1, kGpsError_rad = 0.02;
 
 // Shared by the copies of a FrameSource.
 struct OpenScans {
-  LidarScans scans;
+  std::shared_ptr<const LidarScans> scans;
   std::vector<RecordedPose> poses;  // of the range
   std::vector<RecordedBox> boxes;   // of the range, ascending (frame, id)
+  std::set<Time> left_out_stamps;   // of frames that do not count
+  // Those whose points turned out to be unreadable: no later motion starts there.
+  mutable std::set<int> unreadable = {};
 };
 
 std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
@@ -30,7 +34,9 @@ std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
 }
 
 const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) {
-  const auto boxes = BoxesOf(open, open.poses[index].frame);
+  const int frame = open.poses[index].frame;
+  if (open.unreadable.contains(frame)) return nullptr;
+  const auto boxes = BoxesOf(open, frame);
   const auto box = std::ranges::lower_bound(boxes, id, {}, &RecordedBox::id);
   return box != boxes.end() && box->id == id ? &*box : nullptr;
 }
@@ -38,7 +44,7 @@ const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) 
 // The frames of which one is the begin of an object's motion to the frame: that before it and, with
 // options.motions_over, those of that time.
 std::size_t FirstBegin(const OpenScans& open, std::size_t index) {
-  const Time earliest = open.poses[index].stamp - open.scans.options.motions_over;
+  const Time earliest = open.poses[index].stamp - open.scans->options.motions_over;
   std::size_t first = index - 1;
   while (first > 0 && open.poses[first - 1].stamp >= earliest) --first;
   return first;
@@ -59,6 +65,10 @@ std::optional<std::size_t> BeginOf(const OpenScans& open, std::size_t first, std
   return std::nullopt;
 }
 
+bool HasMotionOf(ObjectId id, const Frame& frame) {
+  return std::ranges::find(frame.motions, id, &ObjectMotion::id) != frame.motions.end();
+}
+
 // Eq. (2) for every object with a box at the frame and at one before. A box that has turned by
 // about pi since then gives a motion of that turn: the scene leaves it out, and names it.
 void AddMotions(const OpenScans& open, std::size_t index, Frame& frame) {
@@ -67,16 +77,20 @@ void AddMotions(const OpenScans& open, std::size_t index, Frame& frame) {
   for (const RecordedBox& box : BoxesOf(open, open.poses[index].frame)) {
     const std::optional<std::size_t> from = BeginOf(open, first, index, box.id);
     if (!from) continue;
+    if (open.scans->has_motions &&
+        (open.poses[*from].frame + 1 == open.poses[index].frame || HasMotionOf(box.id, frame))) {
+      continue;
+    }
     const Pose H_W = box.T_W_B * Inverse(BoxOf(open, *from, box.id)->T_W_B);
     frame.motions.push_back({box.id, H_W, open.poses[*from].stamp});
   }
 }
 
 absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
-  const LidarFolderOptions& options = open.scans.options;
+  const LidarFolderOptions& options = open.scans->options;
   if (index >= open.poses.size()) {
-    return absl::OutOfRangeError(absl::StrCat("frame index ", index, "; ", open.scans.name, " has ",
-                                              open.poses.size(), " frames"));
+    return absl::OutOfRangeError(absl::StrCat("frame index ", index, "; ", open.scans->name,
+                                              " has ", open.poses.size(), " frames"));
   }
   const RecordedPose& pose = open.poses[index];
   const std::span<const RecordedBox> boxes = BoxesOf(open, pose.frame);
@@ -85,12 +99,19 @@ absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
   frame.sequence = static_cast<std::uint64_t>(pose.frame);
   frame.stamp = pose.stamp;
   frame.T_W_S = pose.T_W_S;
-  const Path path = open.scans.points_of(pose.frame);
+  const Path path = open.scans->points_of(pose.frame);
   std::error_code error;
   if (!options.allow_missing_points || std::filesystem::exists(path, error)) {
-    const absl::Status status = open.scans.read(path, boxes, frame);
-    if (!status.ok()) return status;
+    const absl::Status status = open.scans->read(path, boxes, frame);
+    if (!status.ok()) {
+      open.unreadable.insert(pose.frame);
+      return status;
+    }
   }
+  // Motions of the source itself may start there, too.
+  std::erase_if(frame.motions, [&](const ObjectMotion& motion) {
+    return open.left_out_stamps.contains(motion.from);
+  });
   if (options.objects == LidarObjects::kMotions) AddMotions(open, index, frame);
   if (options.objects == LidarObjects::kPoses) {
     for (const RecordedBox& box : boxes) frame.poses.push_back({box.id, box.T_W_B});
@@ -98,30 +119,56 @@ absl::StatusOr<Frame> ReadFrame(const OpenScans& open, std::size_t index) {
   return frame;
 }
 
-absl::Status CheckPointFiles(const OpenScans& open) {
-  std::size_t missing = 0;
-  Path first;
+std::vector<std::pair<int, Path>> MissingPoints(const OpenScans& open) {
+  std::vector<std::pair<int, Path>> missing;
   std::error_code error;
   for (const RecordedPose& pose : open.poses) {
-    const Path path = open.scans.points_of(pose.frame);
-    if (std::filesystem::is_regular_file(path, error)) continue;
-    if (missing++ == 0) first = path;
+    Path path = open.scans->points_of(pose.frame);
+    if (!std::filesystem::is_regular_file(path, error)) {
+      missing.emplace_back(pose.frame, std::move(path));
+    }
   }
-  if (missing == 0) return absl::OkStatus();
+  return missing;
+}
+
+absl::Status NoPoints(const std::vector<std::pair<int, Path>>& missing, std::size_t frames) {
+  std::error_code error;
+  const Path& first = missing.front().second;
   const bool exists = std::filesystem::exists(first, error);
   return absl::NotFoundError(absl::StrCat(
-      first.string(), exists ? ": is not a file; " : ": no such file; ", missing, " of ",
-      open.poses.size(),
+      first.string(), exists ? ": is not a file; " : ": no such file; ", missing.size(), " of ",
+      frames,
       " frames have a pose but no file of points (--allow-missing-points goes on without)"));
 }
 
 template <class Row>
-std::vector<Row> InRange(const std::vector<Row>& rows, const LidarFolderOptions& options) {
+std::vector<Row> Counted(const std::vector<Row>& rows, const LidarFolderOptions& options,
+                         const RowsLeftOut& left_out) {
   std::vector<Row> result;
   for (const Row& row : rows) {
-    if (row.frame >= options.first_frame && row.frame <= options.last_frame) result.push_back(row);
+    const bool in_range = row.frame >= options.first_frame && row.frame <= options.last_frame;
+    if (in_range && !left_out.Has(row)) result.push_back(row);
   }
   return result;
+}
+
+OpenScans Without(const RowsLeftOut& left_out, const std::shared_ptr<const LidarScans>& scans) {
+  OpenScans open{scans,
+                 Counted(scans->poses, scans->options, left_out),
+                 Counted(scans->boxes, scans->options, left_out),
+                 {}};
+  for (const RecordedPose& pose : scans->poses) {
+    if (left_out.Has(pose)) open.left_out_stamps.insert(pose.stamp);
+  }
+  return open;
+}
+
+FrameSource SourceOf(OpenScans scans) {
+  const auto open = std::make_shared<const OpenScans>(std::move(scans));
+  FrameSource source;
+  source.frame_count = open->poses.size();
+  source.read = [open](std::size_t index) { return ReadFrame(*open, index); };
+  return source;
 }
 
 }  // namespace
@@ -139,35 +186,35 @@ absl::Status CheckFramePeriod(Duration period) {
                                                  kLongest.count(), " ns"));
 }
 
-absl::StatusOr<LidarFolder> FramesOf(LidarScans scans) {
-  const LidarFolderOptions options = scans.options;
+absl::StatusOr<LidarFolder> FramesOf(LidarScans given) {
+  const auto scans = std::make_shared<const LidarScans>(std::move(given));
+  const LidarFolderOptions& options = scans->options;
   LidarFolder result;
-  result.poses = scans.poses;
-  result.boxes = scans.boxes;
+  result.poses = scans->poses;
+  result.boxes = scans->boxes;
   result.first_pose = static_cast<std::size_t>(
       std::ranges::lower_bound(result.poses, options.first_frame, {}, &RecordedPose::frame) -
       result.poses.begin());
-  const auto open = std::make_shared<OpenScans>();
-  open->poses = InRange(scans.poses, options);
-  open->boxes = InRange(scans.boxes, options);
-  open->scans = std::move(scans);
-  if (open->poses.empty()) {
+  OpenScans open = Without({}, scans);
+  if (open.poses.empty()) {
     return absl::InvalidArgumentError(absl::StrCat(
-        open->scans.name, ": no frame from ", options.first_frame, " to ", options.last_frame,
+        scans->name, ": no frame from ", options.first_frame, " to ", options.last_frame,
         "; the tables hold ", result.poses.front().frame, " to ", result.poses.back().frame));
   }
-  if (!options.allow_missing_points) {
-    const absl::Status status = CheckPointFiles(*open);
-    if (!status.ok()) return status;
+  result.missing_points = MissingPoints(open);
+  if (!options.allow_missing_points && !result.missing_points.empty()) {
+    return NoPoints(result.missing_points, open.poses.size());
   }
-  result.frames.description = open->scans.name;
-  result.frames.frame_count = open->poses.size();
-  result.frames.left_out = open->scans.left_out;
-  if (open->scans.of_gps) {
+  result.frames = SourceOf(std::move(open));
+  result.frames.description = scans->name;
+  result.frames.left_out = scans->left_out;
+  if (scans->of_gps) {
     result.frames.sensor_pose_error_m = kGpsError_m;
     result.frames.sensor_pose_error_rad = kGpsError_rad;
   }
-  result.frames.read = [open](std::size_t index) { return ReadFrame(*open, index); };
+  result.frames_without = [scans](const RowsLeftOut& left_out) {
+    return SourceOf(Without(left_out, scans));
+  };
   return result;
 }
 

@@ -21,10 +21,13 @@ struct LidarScans {
   std::vector<RecordedPose> poses;  // ascending frames, not empty
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
   bool of_gps = false;              // the poses are of GPS and inertial sensors
+  // `read` sets motions; those between boxes are added over gaps of the boxes' frames alone.
+  bool has_motions = false;
   std::shared_ptr<LeftOut> left_out = std::make_shared<LeftOut>();  // as FrameSource's
   // The file of a frame's points.
   std::function<std::filesystem::path(int frame)> points_of;
-  // Sets points and labels of a frame whose boxes these are. Any thread.
+  // Sets points and labels of a frame whose boxes these are, and motions if has_motions. Any
+  // thread.
   std::function<absl::Status(const std::filesystem::path& points,
                              std::span<const RecordedBox> boxes, Frame& frame)>
       read;

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/parse_number.h"
+#include "clearway/io/file_type.h"
 #include "io/utf8.h"
 
 namespace clearway {
@@ -14,6 +15,7 @@ namespace {
 constexpr std::string_view kBinaryMagic = "# Octomap OcTree binary file";
 constexpr std::string_view kFullMagic = "# Octomap OcTree file";
 constexpr std::size_t kMaxHeader = 65'536;
+constexpr std::size_t kMaxMagic = 512;  // of any known file
 
 // Reads words up to "data", as AbstractOcTree::readHeader of OctoMap does: lines do not matter, but
 // what follows # or an unknown word up to the end of its line is skipped.
@@ -32,7 +34,9 @@ class HeaderParser {
     } else if (rest_.starts_with(kFullMagic)) {
       header_.format = OctomapFormat::kFull;
     } else {
-      return Fail("does not start with \"# Octomap OcTree\": no OctoMap file");
+      const std::string kind = KindOfBytes(bytes_.substr(0, kMaxMagic)).name;
+      return Fail(absl::StrCat("does not start with \"# Octomap OcTree\": no OctoMap file",
+                               kind.empty() ? "" : "; the file is ", kind));
     }
     SkipLine();
     for (std::string_view word = TakeWord(); !word.empty(); word = TakeWord()) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "clearway/base/number_text.h"
 #include "clearway/io/octomap_file.h"
 
@@ -59,7 +60,11 @@ class Resampler {
     });
     if (!status_.ok()) return status_;
     VoxelMap result(resolution_m_, map_.model());
-    for (const auto& [key, tally] : tallies_) Put(key, tally, result);
+    while (!tallies_.empty()) {
+      const auto first = tallies_.begin();
+      Put(first->first, first->second, result);
+      tallies_.erase(first);  // the result takes the memory
+    }
     return result;
   }
 
@@ -104,13 +109,19 @@ class Resampler {
 
   void Put(BlockKey key, const BlockTally& tally, VoxelMap& result) const {
     const OccupancyModel& model = result.model();
+    const VoxelKey first = VoxelAt(key, 0);
+    std::array<std::int64_t, kBlockSize> x, y, z;  // input voxels along each axis
+    for (int i = 0; i < kBlockSize; ++i) {
+      x[i] = to_input_.Of(first.x + i).size();
+      y[i] = to_input_.Of(first.y + i).size();
+      z[i] = to_input_.Of(first.z + i).size();
+    }
     VoxelBlock block;
     bool any = false;
     for (int i = 0; i < kVoxelsPerBlock; ++i) {
       const auto index = static_cast<std::size_t>(i);
-      const VoxelKey voxel = VoxelAt(key, i);
-      const std::int64_t parts = to_input_.Of(voxel.x).size() * to_input_.Of(voxel.y).size() *
-                                 to_input_.Of(voxel.z).size();
+      const VoxelKey at = VoxelAt(BlockKey(), i);  // within the block
+      const std::int64_t parts = x[at.x] * y[at.y] * z[at.z];
       const bool is_free = static_cast<std::int64_t>(tally.free[index]) >= parts;
       if (!tally.occupied[index] && !is_free) continue;
       block.Set(i, tally.occupied[index] ? model.clamp_max : model.clamp_min, model);
@@ -129,6 +140,12 @@ class Resampler {
   absl::Status status_;
 };
 
+// About how many voxels what is observed takes.
+double VoxelsIn(const VoxelMap& map, double resolution_m) {
+  const double ratio = map.grid().resolution_m() / resolution_m;
+  return static_cast<double>(map.observed_count()) * ratio * ratio * ratio;
+}
+
 }  // namespace
 
 absl::StatusOr<VoxelMap> Resample(const VoxelMap& map, double resolution_m,
@@ -136,6 +153,13 @@ absl::StatusOr<VoxelMap> Resample(const VoxelMap& map, double resolution_m,
   if (!(resolution_m > 0) || !std::isfinite(resolution_m)) {
     return absl::InvalidArgumentError(
         absl::StrCat("resolution_m: is ", NumberText(resolution_m), "; it must be above 0"));
+  }
+  // Before time and memory are taken.
+  const double voxels = VoxelsIn(map, resolution_m);
+  if (voxels > static_cast<double>(max_voxels)) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("in voxels of ", NumberText(resolution_m), " m it would have about ",
+                     absl::StrFormat("%.0f", voxels), " voxels; the limit is ", max_voxels));
   }
   return Resampler(map, resolution_m, max_voxels).Run();
 }

@@ -1,5 +1,6 @@
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iterator>
 #include <sstream>
@@ -35,37 +36,73 @@ absl::Status CheckFits(const VoxelMap& map) {
   return status;
 }
 
+// OctoMap's tree, into which whole blocks of one value go as the leaves that pruning would make of
+// them: it takes some 50 bytes a node, and large maps are mostly such blocks.
+class Tree : public octomap::OcTree {
+ public:
+  using OcTree::OcTree;
+
+  // Nothing of the block's cube may be there yet.
+  void AddBlock(const octomap::OcTreeKey& key, float log_odds) {
+    if (root == nullptr) {
+      root = new octomap::OcTreeNode();
+      ++tree_size;
+    }
+    octomap::OcTreeNode* node = root;
+    for (int level = static_cast<int>(tree_depth) - 1; level >= kBlockBits; --level) {
+      const unsigned child = octomap::computeChildIdx(key, level);
+      node =
+          nodeChildExists(node, child) ? getNodeChild(node, child) : createNodeChild(node, child);
+    }
+    node->setLogOdds(log_odds);
+    size_changed = true;
+  }
+
+  // OctoMap's own ends at the first level, from the voxels up, of which it prunes nothing.
+  void PruneAllLevels() {
+    if (root == nullptr) return;
+    unsigned pruned = 0;
+    for (unsigned depth = tree_depth - 1; depth > 0; --depth) pruneRecurs(root, 0, depth, pruned);
+  }
+};
+
+// What is written of a block's observed voxels.
+float ValueOf(const VoxelBlock& block, int index, OctomapFormat format) {
+  if (format == OctomapFormat::kFull) return static_cast<float>(Dequantized(block.log_odds[index]));
+  // Free and occupied alone: any two values on either side of OctoMap's threshold, which is 0.
+  return block.occupied.Test(index) ? 1.0F : -1.0F;
+}
+
+bool IsUniform(const VoxelBlock& block, OctomapFormat format) {
+  if (block.observed.Count() != kVoxelsPerBlock) return false;
+  if (format == OctomapFormat::kBinary) {
+    return !block.occupied.Any() || block.occupied.Count() == kVoxelsPerBlock;
+  }
+  return std::ranges::count(block.log_odds, block.log_odds[0]) == kVoxelsPerBlock;
+}
+
 // Inner nodes hold the maximum of their children, as OctoMap's searches expect.
-void Fill(const VoxelMap& map, octomap::OcTree& tree) {
+void Fill(const VoxelMap& map, OctomapFormat format, Tree& tree) {
   // The map's values have been clamped by its own model; OctoMap must not clamp them again.
   tree.setClampingThresMin(1e-4);
   tree.setClampingThresMax(1 - 1e-4);
+  const auto key_of = [](VoxelKey voxel) {
+    return octomap::OcTreeKey(static_cast<octomap::key_type>(voxel.x + kHalfWidth),
+                              static_cast<octomap::key_type>(voxel.y + kHalfWidth),
+                              static_cast<octomap::key_type>(voxel.z + kHalfWidth));
+  };
   map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    if (IsUniform(block, format)) {
+      tree.AddBlock(key_of(VoxelAt(key, 0)), ValueOf(block, 0, format));
+      return;
+    }
     block.observed.ForEach([&](int index) {
-      const VoxelKey voxel = VoxelAt(key, index);
-      const octomap::OcTreeKey octomap_key(static_cast<octomap::key_type>(voxel.x + kHalfWidth),
-                                           static_cast<octomap::key_type>(voxel.y + kHalfWidth),
-                                           static_cast<octomap::key_type>(voxel.z + kHalfWidth));
-      tree.setNodeValue(octomap_key, static_cast<float>(Dequantized(block.log_odds[index])),
+      tree.setNodeValue(key_of(VoxelAt(key, index)), ValueOf(block, index, format),
                         /*lazy_eval=*/true);
     });
   });
   tree.updateInnerOccupancy();
-  tree.prune();
-}
-
-// The same with free and occupied alone: any two values on either side of OctoMap's threshold.
-VoxelMap StatesOf(const VoxelMap& map) {
-  VoxelMap states(map.grid().resolution_m());
-  const OccupancyModel& model = states.model();
-  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-    VoxelBlock copy;
-    block.observed.ForEach([&](int index) {
-      copy.Set(index, block.occupied.Test(index) ? model.clamp_max : model.clamp_min, model);
-    });
-    states.PutBlock(key, copy);
-  });
-  return states;
+  tree.PruneAllLevels();
 }
 
 // As OctoMap writes it, but with the resolution's digits in full (six would shift the grid), and
@@ -86,14 +123,12 @@ absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat 
   if (!status.ok()) return status;
   std::ostringstream out(std::ios::binary);
   try {
-    octomap::OcTree tree(map.grid().resolution_m());
+    Tree tree(map.grid().resolution_m());
+    Fill(map, format, tree);
+    out << Header(tree, format);
     if (format == OctomapFormat::kBinary) {
-      Fill(StatesOf(map), tree);
-      out << Header(tree, format);
       tree.writeBinaryData(out);
     } else {
-      Fill(map, tree);
-      out << Header(tree, format);
       tree.writeData(out);
     }
   } catch (const std::exception& error) {  // memory above all

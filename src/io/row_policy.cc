@@ -7,7 +7,7 @@
 namespace clearway {
 
 absl::Status RowPolicy::Visit(Row& row, const RowVisitor& visit) {
-  if (row.size() == 0) {
+  if (row.size() == 0 && row.status().ok()) {
     // Nothing that could be of another format, even in the first line.
     left_out_.AddRow(absl::StrCat(row.where(), ": the line is empty, so its frame is left out"));
     return absl::OkStatus();

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
 #include "clearway/io/world_origin.h"
+#include "io/lidar_frames.h"
 
 namespace clearway {
 namespace {
@@ -71,57 +72,55 @@ std::vector<RecordedPose> UsablePoses(const std::vector<RecordedPose>& poses, Le
   return usable;
 }
 
-// The frames of these poses alone, without the boxes that are far.
-FrameSource FramesAt(const std::vector<RecordedPose>& poses, const LidarFolder& folder) {
-  std::vector<std::size_t> kept;
-  for (std::size_t k = 0; k < folder.frames.frame_count; ++k) {
-    const int frame = folder.poses[folder.first_pose + k].frame;
-    if (std::ranges::binary_search(poses, frame, {}, &RecordedPose::frame)) kept.push_back(k);
+// The frames of the others. Far boxes of frames that count go to left_out.
+RowsLeftOut RowsBut(const std::vector<RecordedPose>& usable, const LidarFolder& folder,
+                    LeftOut& left_out) {
+  RowsLeftOut rows;
+  for (const RecordedPose& pose : folder.poses) {
+    if (PoseOf(usable, pose.frame) == nullptr) rows.frames.insert(pose.frame);
   }
-  FrameSource source = folder.frames;
-  source.frame_count = kept.size();
-  source.read = [kept = std::move(kept),
-                 read = folder.frames.read](std::size_t index) -> absl::StatusOr<Frame> {
-    if (index >= kept.size()) {
-      return absl::OutOfRangeError(
-          absl::StrCat("frame index ", index, "; there are ", kept.size(), " frames"));
-    }
-    auto frame = read(kept[index]);
-    if (frame.ok()) {
-      std::erase_if(frame->poses,
-                    [](const ObjectPose& pose) { return IsFar(pose.T_W_B.translation); });
-    }
-    return frame;
-  };
-  return source;
+  for (const RecordedBox& box : folder.boxes) {
+    if (rows.Has(box) || !IsFar(box.T_W_B.translation)) continue;
+    rows.boxes.emplace(box.frame, box.id);
+    left_out.AddRow(absl::StrCat("frame ", box.frame, ", object ", box.id, ": the box ",
+                                 FarText(box.T_W_B.translation)));
+  }
+  return rows;
+}
+
+// As if the tables did not have the rows.
+void LeaveOut(const RowsLeftOut& rows, LidarFolder& folder) {
+  const int first_frame =
+      folder.first_pose < folder.poses.size() ? folder.poses[folder.first_pose].frame : 0;
+  FrameSource frames = folder.frames_without(rows);
+  folder.frames.frame_count = frames.frame_count;
+  folder.frames.read = std::move(frames.read);
+  std::erase_if(folder.poses, [&](const RecordedPose& pose) { return rows.Has(pose); });
+  std::erase_if(folder.boxes, [&](const RecordedBox& box) { return rows.Has(box); });
+  std::erase_if(folder.missing_points,
+                [&](const auto& missing) { return rows.frames.contains(missing.first); });
+  folder.first_pose = static_cast<std::size_t>(
+      std::ranges::lower_bound(folder.poses, first_frame, {}, &RecordedPose::frame) -
+      folder.poses.begin());
 }
 
 }  // namespace
 
 absl::StatusOr<LidarFolder> WithinScene(LidarFolder folder) {
-  LeftOut& left_out = *folder.frames.left_out;
   LeftOut of_scene;
-  std::vector<RecordedPose> poses = UsablePoses(folder.poses, of_scene);
-  if (poses.empty() && !of_scene.Empty()) {
+  const std::vector<RecordedPose> usable = UsablePoses(folder.poses, of_scene);
+  const RowsLeftOut rows = RowsBut(usable, folder, of_scene);
+  if (of_scene.Empty()) return folder;
+  if (!folder.frames_without && !usable.empty()) {
+    return absl::FailedPreconditionError(absl::StrCat(
+        folder.frames.description, ": no reader opened it, so nothing can be left out of it"));
+  }
+  if (!usable.empty()) LeaveOut(rows, folder);
+  if (usable.empty() || folder.frames.frame_count == 0) {
     return absl::InvalidArgumentError(absl::StrCat(
         folder.frames.description, ": no frame can be used; ", of_scene.reasons.front()));
   }
-  left_out.Add(of_scene);
-  const int first_frame =
-      folder.first_pose < folder.poses.size() ? folder.poses[folder.first_pose].frame : 0;
-  folder.frames = FramesAt(poses, folder);
-  folder.poses = std::move(poses);
-  folder.first_pose = static_cast<std::size_t>(
-      std::ranges::lower_bound(folder.poses, first_frame, {}, &RecordedPose::frame) -
-      folder.poses.begin());
-  std::erase_if(folder.boxes, [&](const RecordedBox& box) {
-    const bool is_far = IsFar(box.T_W_B.translation);
-    if (is_far) {
-      left_out.AddRow(absl::StrCat("frame ", box.frame, ", object ", box.id, ": the box ",
-                                   FarText(box.T_W_B.translation)));
-    }
-    return is_far;
-  });
+  folder.frames.left_out->Add(of_scene);
   return folder;
 }
 

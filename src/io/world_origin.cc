@@ -49,8 +49,9 @@ bool IsFar(const Pose& T_W_S) {
   return !(T_W_S.translation.cwiseAbs().maxCoeff() <= limit_m);
 }
 
-absl::Status TooFar(const FrameSource& source, const Pose& T_W_S) {
-  const bool moved = !source.origin_m.isZero();
+// `asked`: whether an origin was given, which may be zero.
+absl::Status TooFar(const FrameSource& source, const Pose& T_W_S, bool asked) {
+  const bool moved = asked || !source.origin_m.isZero();
   return absl::InvalidArgumentError(absl::StrCat(
       source.description, ": the sensor is at ", OriginText(T_W_S.translation),
       moved ? " from there" : "", ", beyond the limit of ",
@@ -73,11 +74,18 @@ absl::StatusOr<LidarFolder> WithOrigin(LidarFolder folder,
     for (RecordedPose& pose : folder.poses) pose.T_W_S.translation -= origin_m;
     for (RecordedBox& box : folder.boxes) box.T_W_B.translation -= origin_m;
     folder.frames = Moved(std::move(folder.frames), origin_m);
+    if (folder.frames_without) {
+      folder.frames_without = [without = std::move(folder.frames_without),
+                               origin_m](const RowsLeftOut& rows) {
+        return Moved(without(rows), origin_m);
+      };
+    }
   }
   const auto is_far = [](const RecordedPose& pose) { return IsFar(pose.T_W_S); };
   const auto far = static_cast<std::size_t>(std::ranges::count_if(folder.poses, is_far));
   if (2 * far <= folder.poses.size()) return folder;
-  return TooFar(folder.frames, std::ranges::find_if(folder.poses, is_far)->T_W_S);
+  return TooFar(folder.frames, std::ranges::find_if(folder.poses, is_far)->T_W_S,
+                origin.has_value());
 }
 
 absl::StatusOr<FrameSource> WithOrigin(FrameSource source,
@@ -93,7 +101,7 @@ absl::StatusOr<FrameSource> WithOrigin(FrameSource source,
     T_W_S.translation -= origin_m;
     source = Moved(std::move(source), origin_m);
   }
-  if (IsFar(T_W_S)) return TooFar(source, T_W_S);
+  if (IsFar(T_W_S)) return TooFar(source, T_W_S, origin.has_value());
   return source;
 }
 

@@ -54,13 +54,30 @@ TEST_F(OtherPrograms, APriorOfAnotherResolutionIsResampledOnRequest) {
   const std::string map = WriteMap("fine.bt", 0.05);
   const Finished refused = Clearway({"load-prior", map});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(refused.err, AllOf(HasSubstr("0.05 m"), HasSubstr("0.1 m")));
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("0.05 m"), HasSubstr("0.1 m"),
+                                 HasSubstr("; --resample converts it")));
   const json dut = Ask({"load-prior", map, "--resample"});
   EXPECT_EQ(dut["resampled"]["from_m"], 0.05);
   EXPECT_EQ(dut["resampled"]["to_m"], 0.1);
   EXPECT_EQ(StatusAt("0.15,0.15,0.15"), "OCCUPIED");
   EXPECT_EQ(StatusAt("0.05,0.05,0.05"), "FREE");
   EXPECT_EQ(StatusAt("0.25,0.05,0.05"), "UNKNOWN_SPACE");
+}
+
+// A file of a few hundred bytes.
+TEST_F(OtherPrograms, APriorThatWouldBecomeTooLargeIsRefused) {
+  StartWith("0.1");
+  VoxelMap map(10);
+  for (int i = 0; i < 4'096; ++i) {
+    map.Set({i % 16, i / 16 % 16, i / 256}, map.model().clamp_min);
+  }
+  const std::string file = folder_ / "coarse.bt";
+  ASSERT_TRUE(WriteOctomap(file, map).ok());
+  const Finished dut = Clearway({"load-prior", file, "--resample"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("in voxels of 0.1 m it would have about 4096000000 voxels; the "
+                                 "limit is 134217728. Start the server with larger voxels "
+                                 "(clearway-server --scene-resolution-m); the map's have 10 m"));
 }
 
 TEST_F(OtherPrograms, AFolderIsNoPrior) {

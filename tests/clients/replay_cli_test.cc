@@ -223,5 +223,55 @@ TEST_F(CliServer, ReplayDoesNotTellOfThemAServerThatRegistersScans) {
   EXPECT_THAT(oxts.err, Not(HasSubstr("note")));
 }
 
+// Three frames, 4 to 6, of which the second's points are cut off.
+std::string WriteCutExample(const TemporaryFolder& folder) {
+  WriteExample(folder);
+  folder.Write("points/0005.bin", "cut off");
+  return folder.path();
+}
+
+TEST_F(CliServer, ReplayThatStopsSaysHowFarItCame) {
+  const TemporaryFolder folder;
+  const Finished dut = Clearway({"replay", WriteCutExample(folder)});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("stopped at frame 1 of 3; 1 frame was sent"));
+  EXPECT_THAT(dut.err, HasSubstr("0005.bin: 7 bytes are not a whole number"));
+  EXPECT_EQ(Ask({"status"})["frames_applied"], 1);
+}
+
+TEST_F(CliServer, ReplayThatKeepsGoingLeavesOutWhatCannotBeRead) {
+  const TemporaryFolder folder;
+  const std::string path = WriteCutExample(folder);
+  const Finished dut = Clearway({"replay", path, "--keep-going", "--json"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("1 frame of the input is left out"));
+  EXPECT_THAT(dut.err, HasSubstr("1 frame could not be read, the first: frame 1"));
+  const json summary = json::parse(dut.out);
+  EXPECT_EQ(summary["applied"], 2);
+  EXPECT_EQ(summary["left_out"]["frames"], 1);
+  EXPECT_THAT(summary["left_out"]["reasons"].dump(), HasSubstr("frame 1: "));
+  EXPECT_EQ(summary["reports"]["objects_restarted"], 0);
+}
+
+TEST_F(CliServer, InfoCountsAndNamesWhatCounts) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  std::string poses = kPoses;
+  folder.Write("poses_icp.csv", poses.replace(poses.find("6,1,0,0,2"), 9, "6,1,0,0,2e5"));
+  std::filesystem::remove(folder / "points/0005.bin");
+  const Finished dut = RunClearway({"info", folder.path(), "--json"});
+  ASSERT_EQ(dut.exit_code, 0) << dut.err;
+  const json info = json::parse(dut.out);
+  EXPECT_EQ(info["frames"], 2);
+  ASSERT_EQ(info["objects"].size(), 1u);  // the cyclist was in the last frame alone
+  EXPECT_EQ(info["objects"][0]["frames"], 2);
+  EXPECT_EQ(info["missing_points"]["count"], 1);
+  const std::string file = folder.path() / "points/0005.bin";
+  EXPECT_EQ(info["missing_points"]["first"],
+            json::parse(R"([{"frame": 5, "file": ")" + file + R"("}])"));
+  EXPECT_THAT(RunClearway({"info", folder.path()}).out,
+              HasSubstr("missing     1 file of points:\n            frame 5: " + file + "\n"));
+}
+
 }  // namespace
 }  // namespace clearway

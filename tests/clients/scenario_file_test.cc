@@ -11,6 +11,7 @@
 namespace clearway::cli {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr char kDoor[] = R"({
@@ -196,6 +197,50 @@ TEST(ScenarioFile, AFileThatIsNotThere) {
   const auto dut = LoadScenario("/nowhere/s.json");
   EXPECT_EQ(dut.status().code(), absl::StatusCode::kNotFound);
   EXPECT_THAT(std::string(dut.status().message()), HasSubstr("/nowhere/s.json: no such scenario"));
+}
+
+TEST(ScenarioFile, AStartBeforeTheScenesIsNamedInSeconds) {
+  EXPECT_EQ(
+      MessageOf(Spoilt("\"start_s\": 2", "\"start_s\": -1")),
+      "s.json: start_s: is -1 s; it must not be below 0: times count from the newest stamp of "
+      "the scene");
+}
+
+std::string WithPeople(const std::string& more = "") {
+  return Spoilt("\"objects\"", R"("tracks": {"format": "ucy", "file": "people.txt", "for_s": 10,
+                                "radius_m": 0.3, "height_m": 1.8)" +
+                                   more + R"(}, "objects")");
+}
+
+TEST(ScenarioFile, BadRowsOfRecordedPeopleAreLeftOutAndNamed) {
+  const TemporaryFolder folder;
+  const DataVariable data(folder.path());
+  folder.Write("people.txt",
+               "0 7 1 0 5 1 0 0\n25 7 nan 0 5 1 0 0\n50,7,3,0,5,1,0,0\n75 7 1e7 0 5 1 0 0\n"
+               "80 8 -1e7 0 0 0 0 0\n100 7 5 0\n");
+  const auto dut = ParseScenario("s.json", WithPeople());
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->left_out.rows, 4u);
+  EXPECT_THAT(dut->left_out.reasons,
+              ElementsAre(HasSubstr("people.txt, line 2, word 3: 'nan' is not a finite number"),
+                          HasSubstr("people.txt, line 6: 4 words, expected eight"),
+                          "people.txt, line 4: person 7 is at 10000000,5,0.9, beyond the limit of "
+                          "100000 m from the origin",
+                          HasSubstr("people.txt, line 5: person 8 is at -10000000,")));
+  ASSERT_EQ(dut->objects.size(), 3u);
+  const GivenObject& person = dut->objects[2];
+  EXPECT_EQ(person.pose.T_W_O.translation, Eigen::Vector3d(1, 5, 0.9));
+  ASSERT_EQ(person.future.size(), 2u);
+  EXPECT_EQ(person.future[0].T_W_O.translation, Eigen::Vector3d(3, 5, 0.9));
+}
+
+TEST(ScenarioFile, PeopleMostOfWhomAreFarAreRefused) {
+  const TemporaryFolder folder;
+  const DataVariable data(folder.path());
+  folder.Write("people.txt", "0 7 1 0 5 1 0 0\n25 7 1e7 0 5 1 0 0\n50 7 1e7 0 5 1 0 0\n");
+  EXPECT_THAT(MessageOf(WithPeople()),
+              HasSubstr("tracks.file: has something at 10000000,5,0.9, beyond the limit"));
+  EXPECT_TRUE(ParseScenario("s.json", WithPeople(R"(, "origin_m": [1e7, 0, 0])")).ok());
 }
 
 }  // namespace

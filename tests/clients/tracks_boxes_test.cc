@@ -92,5 +92,23 @@ TEST(BoxTracks, ReadsARealDrive) {
   EXPECT_LT((parked.future.back().T_W_O.translation - parked.pose.T_W_O.translation).norm(), 5);
 }
 
+// A bad row of either table costs itself alone.
+TEST(BoxTracks, WhatTheTablesLeaveOutIsTold) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  std::string boxes = kObjects, poses = kPoses;
+  folder.Write("objects_icp.csv", boxes.replace(boxes.find("1,1,0,0,9"), 9, "1,1,0,0,nan"));
+  folder.Write("poses_icp.csv", poses.replace(poses.find("6,1,0,0,2"), 9, "6,1,0,0,2e5"));
+  const DataVariable data(folder.path().parent_path());
+  const std::string file = "\"file\": \"" + folder.path().filename().string() + "\"";
+  const auto dut =
+      ParseTracks(Json::parse(R"({"format": "boxes", "for_s": 1, )" + file + "}"), "tracks", 100);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->left_out.rows, 1u);
+  EXPECT_EQ(dut->left_out.frames, 1u);
+  EXPECT_THAT(dut->left_out.reasons[0], HasSubstr("objects_icp.csv, line 3, column T03: 'nan'"));
+  ASSERT_EQ(dut->objects.size(), 1u);  // the cyclist was in that frame alone
+}
+
 }  // namespace
 }  // namespace clearway::cli

@@ -120,6 +120,14 @@ TEST_F(CloudFolder, NamesThatAreStampsGetThePoseAtTheirTime) {
   }
 }
 
+// As KITTI's raw recordings have them, here without the second scan.
+TEST_F(CloudFolder, TenDigitsThatCountAreNumbers) {
+  folder_.Write("poses.txt", kTum);
+  WriteClouds({"0000000000.pcd", "0000000002.pcd"});
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(3, 1)));
+  EXPECT_THAT(Open()->frames.description, HasSubstr("of the rows that number the clouds"));
+}
+
 TEST_F(CloudFolder, StampsFarFromEveryPoseAreLeftOut) {
   folder_.Write("poses.txt", kTum);
   WriteClouds({"1700000000.25.pcd", "1700000000.30.pcd", "1700000009.00.pcd"});
@@ -127,7 +135,10 @@ TEST_F(CloudFolder, StampsFarFromEveryPoseAreLeftOut) {
   EXPECT_THAT(Places(), ElementsAre(Place(3, 1)));
   EXPECT_THAT(Open()->frames.description, HasSubstr("2 clouds without a pose are left out"));
   std::filesystem::remove(folder_ / "1700000000.30.pcd");
-  EXPECT_THAT(ErrorOf(), HasSubstr("none of 2 clouds has a pose"));
+  EXPECT_THAT(ErrorOf(), AllOf(HasSubstr("none of 2 clouds has a pose"),
+                               HasSubstr("their names were read as stamps from 1700000000.25 to "
+                                         "1700000009.00 s, the table's stamps are from "
+                                         "1700000000.10 to 1700000000.30 s")));
 }
 
 TEST_F(CloudFolder, MatricesHaveTheTimesBesideThem) {
@@ -280,6 +291,10 @@ TEST(CloudNames, WhatIsAStamp) {
   EXPECT_EQ(naming("1700000000.pcd", "1700000001.pcd"), CloudNaming::kStamps);
   EXPECT_EQ(naming("0001.pcd", "2.pcd"), CloudNaming::kNumbers);
   EXPECT_EQ(naming("17000000001.pcd", "17000000002.pcd"), CloudNaming::kNumbers);  // 11 digits
+  EXPECT_EQ(naming("0000000005.pcd", "0000000007.pcd"), CloudNaming::kNumbers);
+  EXPECT_EQ(naming("0000000005.pcd", "0000000008.pcd"), CloudNaming::kStamps);
+  EXPECT_EQ(naming("0000000000000000001.pcd", "0000000000000000002.pcd"), CloudNaming::kNumbers);
+  EXPECT_EQ(naming("0000000000100000000.pcd", "0000000000200000000.pcd"), CloudNaming::kStamps);
   EXPECT_EQ(naming("a1.pcd", "b2.pcd"), CloudNaming::kOther);
   EXPECT_EQ(naming("1.pcd", "last.pcd"), CloudNaming::kOther);
   const auto dut = NameClouds({"x_0.3.pcd", "x_0.1234567891.pcd"});

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "clearway/io/within_scene.h"
 #include "io/dynosam_example.h"
 
 namespace clearway {
@@ -173,6 +174,22 @@ TEST_F(Dynosam, AfterAGapAMotionBeginsAtTheLastPose) {
   const Frame frame = FrameOf(dut, 2);
   ASSERT_EQ(frame.motions.size(), 1u);
   EXPECT_EQ(frame.motions[0].id, 8);
+  EXPECT_EQ(frame.motions[0].from, dut->poses[0].stamp);
+  EXPECT_TRUE(frame.motions[0].H_W.translation.isApprox(Eigen::Vector3d(0.4, 0, 0), 1e-9));
+}
+
+// The log's motion of frame 3 starts at a frame that no scene saw.
+TEST_F(Dynosam, AfterAFrameThatIsLeftOutAMotionBeginsAtTheLastPose) {
+  folder_.Write(Name("camera_pose"),
+                DynosamCameraLog({"1,0,0,0.1,0,0,0,1", "2,0,0,3e6,0,0,0,1", "3,0,0,0.3,0,0,0,1"}));
+  const auto opened = Open();
+  ASSERT_TRUE(opened.ok()) << opened.status();
+  const auto dut = WithinScene(*opened);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, 2u);
+  const Frame frame = FrameOf(dut, 1);
+  ASSERT_EQ(frame.motions.size(), 1u);
+  EXPECT_EQ(frame.motions[0].id, 7);
   EXPECT_EQ(frame.motions[0].from, dut->poses[0].stamp);
   EXPECT_TRUE(frame.motions[0].H_W.translation.isApprox(Eigen::Vector3d(0.4, 0, 0), 1e-9));
 }

@@ -223,5 +223,32 @@ TEST(LidarFolder, ReadsTheRealTracksWithoutTheirScans) {
   for (std::size_t i = 0; i < 156; ++i) ASSERT_TRUE(Validate(*dut->frames.read(i), {}).ok()) << i;
 }
 
+// Whoever goes on without it never saw the objects there.
+TEST(LidarFolder, NoMotionStartsAtAFrameThatCouldNotBeRead) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  folder.Write("points/0005.bin", "cut off");
+  const auto dut = OpenLidarFolder(folder.path());
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_TRUE(dut->frames.read(0).ok());
+  EXPECT_FALSE(dut->frames.read(1).ok());
+  const auto frame = dut->frames.read(2);
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  ASSERT_EQ(frame->motions.size(), 1u);
+  EXPECT_EQ(frame->motions[0].from, dut->poses[0].stamp);
+}
+
+TEST(LidarFolder, FramesWithoutAFileOfPointsAreListed) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  EXPECT_TRUE(OpenLidarFolder(folder.path())->missing_points.empty());
+  std::filesystem::remove(folder / "points/0005.bin");
+  const auto dut = OpenLidarFolder(folder.path(), {.allow_missing_points = true});
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  ASSERT_EQ(dut->missing_points.size(), 1u);
+  EXPECT_EQ(dut->missing_points[0].first, 5);
+  EXPECT_EQ(dut->missing_points[0].second, folder.path() / "points/0005.bin");
+}
+
 }  // namespace
 }  // namespace clearway

@@ -48,6 +48,9 @@ TEST(OctomapFile, SurvivesAnyDamagedByte) {
 
 TEST(OctomapFile, RefusesBadHeadersNamingTheLine) {
   EXPECT_THAT(ErrorOf("ply\nformat ascii 1.0\n"), HasSubstr("m.bt, line 1: does not start with"));
+  EXPECT_THAT(ErrorOf("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"),
+              HasSubstr("no OctoMap file; the file is a point cloud (PCD)"));
+  EXPECT_THAT(ErrorOf("\x89PNG\r\n\x1a\n"), HasSubstr("the file is a PNG image"));
   EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid Tree\nsize 1\nres 1\ndata\n"),
               HasSubstr("line 5: id is none of"));
   EXPECT_THAT(ErrorOf("# Octomap OcTree binary file\nid OcTree\nsize x\nres 1\ndata\n"),

@@ -86,6 +86,37 @@ TEST(OctomapFile, OctomapReadsWhatWeWrite) {
   }
 }
 
+// Blocks of one value are written as leaves; byte for byte what OctoMap prunes single voxels to.
+TEST(OctomapFile, LargeLeavesAreThoseThatOctomapPrunesTo) {
+  VoxelMap map(0.1);
+  VoxelBlock full, mixed;
+  for (int i = 0; i < kVoxelsPerBlock; ++i) full.Set(i, map.model().clamp_min, map.model());
+  for (int i = 0; i < 8; ++i) map.PutBlock({i % 2, i / 2 % 2, i / 4}, full);
+  map.PutBlock({-3, 5, 0}, full);
+  mixed = full;
+  mixed.Set(77, map.model().clamp_max, map.model());
+  map.PutBlock({-1, 0, 0}, mixed);
+  mixed = full;
+  mixed.Forget(5);
+  map.PutBlock({-1, -1, 0}, mixed);
+  octomap::OcTree tree(0.1);
+  tree.setClampingThresMin(1e-4);
+  tree.setClampingThresMax(1 - 1e-4);
+  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    block.observed.ForEach([&](int index) {
+      tree.setNodeValue(KeyFor(VoxelAt(key, index)),
+                        static_cast<float>(Dequantized(block.log_odds[index])), true);
+    });
+  });
+  tree.updateInnerOccupancy();
+  tree.prune();
+  std::ostringstream binary, whole;
+  tree.writeBinaryData(binary);
+  tree.writeData(whole);
+  EXPECT_TRUE(Serialized(map, OctomapFormat::kBinary).ends_with("data\n" + binary.str()));
+  EXPECT_TRUE(Serialized(map, OctomapFormat::kFull).ends_with("data\n" + whole.str()));
+}
+
 TEST(OctomapFile, InnerNodesHoldTheirChildrensMaximum) {
   VoxelMap map(0.1);
   map.Set({0, 0, 0}, map.model().clamp_max);

@@ -100,5 +100,30 @@ TEST(Resample, RefusesSizesAndMapsThatAreTooLarge) {
   EXPECT_EQ(Resample(map, 0.01).status().code(), absl::StatusCode::kOutOfRange);
 }
 
+// In a file these are a few leaves.
+TEST(Resample, NamesTheNumberOfVoxelsBeforeItMakesThem) {
+  VoxelMap map(10);
+  for (int i = 0; i < 4'096; ++i) {
+    map.Set({i % 16, i / 16 % 16, i / 256}, map.model().clamp_min);
+  }
+  const auto dut = Resample(map, 0.1);
+  EXPECT_EQ(dut.status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(dut.status().message(),
+            "in voxels of 0.1 m it would have about 4096000000 voxels; the limit is 134217728");
+}
+
+TEST(Resample, TakesMapsUpToTheLimit) {
+  VoxelMap map(0.2);
+  VoxelBlock full;
+  for (int i = 0; i < kVoxelsPerBlock; ++i) full.Set(i, map.model().clamp_min, map.model());
+  for (int i = 0; i < 8; ++i) map.PutBlock({i % 2, i / 2 % 2, i / 4}, full);
+  constexpr std::int64_t kVoxels = 64 * kVoxelsPerBlock;
+  const auto dut = Resample(map, 0.1, kVoxels);
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->observed_count(), kVoxels);
+  EXPECT_FALSE(Resample(map, 0.1, kVoxels - 1).ok());
+  EXPECT_GT(kMaxResampledVoxels, 100 * 100 * 10 * 1'000);  // 100 m x 100 m x 10 m in 0.1 m
+}
+
 }  // namespace
 }  // namespace clearway

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "clearway/io/world_origin.h"
 #include "clearway/scene/scene_builder.h"
 #include "io/lidar_example.h"
 
@@ -26,7 +28,9 @@ struct Strange {
   std::array<std::int64_t, 6> stamps_s = {100, 101, 102, 103, 104, 105};
 };
 
-LidarFolder Opened(const Strange& strange, const LidarFolderOptions& options = {}) {
+LidarFolder Opened(const Strange& strange,
+                   const LidarFolderOptions& options = {.objects = LidarObjects::kPoses},
+                   const std::optional<WorldOrigin>& origin = std::nullopt) {
   const TemporaryFolder folder;
   std::string poses = "frame,timestamp_ns,T00,T01,T02,T03,T10,T11,T12,T13,T20,T21,T22,T23\n";
   std::string boxes =
@@ -41,9 +45,9 @@ LidarFolder Opened(const Strange& strange, const LidarFolderOptions& options = {
   }
   folder.Write("poses.csv", poses);
   folder.Write("objects.csv", boxes);
-  LidarFolderOptions with_poses = options;
-  with_poses.objects = LidarObjects::kPoses;
-  auto opened = OpenLidarFolder(folder.path(), with_poses);
+  auto opened = OpenLidarFolder(folder.path(), options);
+  EXPECT_TRUE(opened.ok()) << opened.status();
+  opened = WithOrigin(*std::move(opened), origin);
   EXPECT_TRUE(opened.ok()) << opened.status();
   auto dut = WithinScene(*std::move(opened));
   EXPECT_TRUE(dut.ok()) << dut.status();
@@ -64,6 +68,14 @@ std::vector<int> NumbersOf(const LidarFolder& folder) {
     numbers.push_back(static_cast<int>(folder.frames.read(k)->sequence));
   }
   return numbers;
+}
+
+// The only motion of a frame starts at that second and goes so far along x.
+void ExpectMotion(const LidarFolder& folder, std::size_t index, std::int64_t from_s, double x_m) {
+  const Frame frame = *folder.frames.read(index);
+  ASSERT_EQ(frame.motions.size(), 1u) << index;
+  EXPECT_EQ(ToNanoseconds(frame.motions[0].from), from_s * kSecond_ns) << index;
+  EXPECT_TRUE(frame.motions[0].H_W.translation.isApprox(Eigen::Vector3d(x_m, 0, 0))) << index;
 }
 
 void ExpectApplied(const LidarFolder& folder) {
@@ -105,6 +117,35 @@ TEST(WithinScene, SoIsAFarBox) {
   ExpectApplied(dut);
 }
 
+TEST(WithinScene, MotionsStartAtTheLastFrameThatCounts) {
+  for (const std::optional<WorldOrigin>& origin :
+       {std::optional<WorldOrigin>(), std::optional(WorldOrigin{.position_m = {-50, 8, 2}})}) {
+    const LidarFolder dut = Opened({.pose_frame = 2, .pose_x_m = 3e6}, {}, origin);
+    EXPECT_THAT(NumbersOf(dut), ElementsAre(0, 1, 3, 4, 5));
+    ExpectMotion(dut, 1, 100, 1);
+    ExpectMotion(dut, 2, 101, 2);  // over the frame that is left out
+    ExpectMotion(dut, 3, 103, 1);
+    ExpectApplied(dut);
+  }
+}
+
+TEST(WithinScene, NoMotionLeadsToOrFromAFarBox) {
+  const LidarFolder dut = Opened({.box_frame = 3, .box_x_m = -2e5}, {});
+  ExpectMotion(dut, 2, 101, 1);
+  EXPECT_TRUE(dut.frames.read(3)->motions.empty());
+  ExpectMotion(dut, 4, 102, 2);
+  ExpectMotion(dut, 5, 104, 1);
+  ExpectApplied(dut);
+}
+
+TEST(WithinScene, BoxesOfFramesThatAreLeftOutDoNotCount) {
+  const LidarFolder dut =
+      Opened({.pose_frame = 2, .pose_x_m = 3e6, .box_frame = 2, .box_x_m = 2e5});
+  EXPECT_EQ(dut.boxes.size(), 5u);
+  EXPECT_EQ(dut.frames.left_out->frames, 1u);
+  EXPECT_EQ(dut.frames.left_out->rows, 0u);
+}
+
 TEST(WithinScene, AStampAloneAtEitherEndIsLeftOut) {
   const LidarFolder first = Opened(
       {.stamps_s = {0, 1'700'000'000, 1'700'000'001, 1'700'000'002, 1'700'000'003, 1'700'000'004}});
@@ -140,8 +181,21 @@ TEST(WithinScene, FramesOfARange) {
   options.first_frame = 1;
   options.last_frame = 4;
   const LidarFolder dut = Opened({.pose_frame = 2, .pose_x_m = 3e6}, options);
+  ExpectMotion(dut, 1, 101, 2);
   EXPECT_THAT(NumbersOf(dut), ElementsAre(1, 3, 4));
   EXPECT_EQ(dut.poses[dut.first_pose].frame, 1);
+}
+
+TEST(WithinScene, ARangeOfFarFramesAloneIsRefused) {
+  const TemporaryFolder folder;
+  WriteExample(folder);
+  LidarFolderOptions options;
+  options.first_frame = 6;
+  auto opened = OpenLidarFolder(folder.path(), options);
+  ASSERT_TRUE(opened.ok()) << opened.status();
+  opened->poses.back().T_W_S.translation.x() = 1e6;
+  EXPECT_THAT(std::string(WithinScene(*opened).status().message()),
+              HasSubstr("no frame can be used; frame 6: the sensor is at 1000000,0,1.5"));
 }
 
 TEST(WithinScene, WithoutAnyFrameTheFolderIsRefused) {

@@ -121,6 +121,16 @@ TEST(WorldOrigin, AFarWorldIsRefusedWithTheLimitAndTheWayOut) {
   }
 }
 
+TEST(WorldOrigin, WhereTheFirstPoseIsNoUseAnotherOriginIsAdvised) {
+  const TemporaryFolder folder;
+  WriteDrive(folder, Eigen::Vector3d::Zero());
+  folder.Write("poses.csv", absl::StrCat(kHeader, Row("0", 0, {0, 0, 0}), Row("1", 0, kUtm),
+                                         Row("2", 0, kUtm), Row("3", 0, kUtm)));
+  const auto dut = Open(folder, WorldOrigin{.at_first_pose = true});
+  EXPECT_THAT(dut.status().message(),
+              HasSubstr("--origin x,y,z, near the poses, moves the origin"));
+}
+
 TEST(WorldOrigin, AnOriginFarFromThePosesIsRefused) {
   const TemporaryFolder folder;
   WriteDrive(folder, kUtm);

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -52,6 +55,17 @@ struct RecordedBox {
   int n_points = 0;  // below 0 if the source does not say
 };
 
+// Rows of the tables that are left out, as if the tables did not have them.
+struct RowsLeftOut {
+  std::set<int> frames;                      // with all their boxes
+  std::set<std::pair<int, ObjectId>> boxes;  // by frame and id
+
+  bool Has(const RecordedPose& pose) const { return frames.contains(pose.frame); }
+  bool Has(const RecordedBox& box) const {
+    return frames.contains(box.frame) || boxes.contains({box.frame, box.id});
+  }
+};
+
 // An opened folder, of these or of others that have poses and boxes. A value.
 struct LidarFolder {
   // The frames of the range. Frame::sequence is the number in the tables, labels are track ids.
@@ -61,6 +75,11 @@ struct LidarFolder {
   std::vector<RecordedPose> poses;  // ascending frames
   std::size_t first_pose = 0;       // frame k of the range has poses[first_pose + k]
   std::vector<RecordedBox> boxes;   // ascending (frame, id)
+  // Frames of the range without a file of points, where they may be, and the file that is missing.
+  std::vector<std::pair<int, std::filesystem::path>> missing_points;
+  // The frames of the range of tables without these rows: only their number and how they are read.
+  // Null if no reader made this.
+  std::function<FrameSource(const RowsLeftOut&)> frames_without = nullptr;
 };
 
 // Reads the tables; points are read with each frame. Stamps are the column timestamp_ns, else

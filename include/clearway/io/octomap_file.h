@@ -34,12 +34,17 @@ struct OctomapFile {
   std::vector<std::string> unknown_keys;  // of the header
 };
 
+// What Resample makes at most: 100 m x 100 m x 13 m of known space in voxels of 0.1 m. The map
+// takes 0.3 GB then, and while it is made 0.6 GB.
+inline constexpr std::int64_t kMaxResampledVoxels = std::int64_t{1} << 27;
+
 // The map in voxels of another size, of which none claims to know more: a voxel is occupied if any
 // voxel of `map` that it overlaps is, free if all of it lies in free voxels, else unknown. What is
 // occupied or free gets the model's clamps as log-odds. Overlaps thinner than a thousandth of the
-// smaller voxel are rounding. RESOURCE_EXHAUSTED above max_voxels.
+// smaller voxel are rounding. RESOURCE_EXHAUSTED, before memory is taken, if it would have more
+// than max_voxels, and if whole blocks of it would.
 absl::StatusOr<VoxelMap> Resample(const VoxelMap& map, double resolution_m,
-                                  std::int64_t max_voxels = OctomapLimits().max_voxels);
+                                  std::int64_t max_voxels = kMaxResampledVoxels);
 
 // Reads `.bt` and `.ot` of OcTree, ColorOcTree and OcTreeStamped (colours and stamps are left out),
 // told apart by their first line. Pruned leaves are expanded to voxels. A voxel's state is that of

@@ -12,7 +12,11 @@ namespace clearway {
 // max_stamp_jump from the others, as of a clock that was not set yet.
 // Comes after WithOrigin, which refuses folders that are far away as a whole.
 //
-// INVALID_ARGUMENT, with the first reason, if no frame is left.
+// What is left out does not count, as if the tables did not have it: no motion leads to or from it,
+// and boxes of frames that are left out are gone, too.
+//
+// INVALID_ARGUMENT, with the first reason, if no frame is left; FAILED_PRECONDITION if something is
+// to be left out of a folder without frames_without.
 absl::StatusOr<LidarFolder> WithinScene(LidarFolder folder);
 
 }  // namespace clearway
