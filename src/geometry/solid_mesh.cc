@@ -77,11 +77,13 @@ class SolidBuilder {
 
   SolidMesh Build(std::shared_ptr<const Mesh> given) {
     const Draft draft = Prepare();
+    // Splitting makes several of one.
+    face_count_ = std::max(given_.triangles.size(), draft.closed.size() + draft.loose.size());
     AddClosed(draft.closed);
     AddLoose(draft.loose, draft.closed.empty());
     if (draft.doubled > 0) notes_.push_back(absl::StrCat(draft.doubled, " doubled faces dropped"));
     if (turned_ > 0) {
-      notes_.push_back(absl::StrCat(turned_, " of ", given_.triangles.size(), " faces turned"));
+      notes_.push_back(absl::StrCat(turned_, " of ", face_count_, " faces turned"));
     }
     if (inner_ > 0) notes_.push_back(absl::StrCat(inner_, " faces inside the solid dropped"));
     if (faces_.empty() || (notes_.empty() && !changed_)) return {std::move(given), open_};
@@ -200,7 +202,7 @@ class SolidBuilder {
   std::vector<Face> faces_;
   std::vector<std::string> notes_;
   std::string open_;
-  std::size_t turned_ = 0, inner_ = 0;
+  std::size_t face_count_ = 0, turned_ = 0, inner_ = 0;
   bool changed_ = false;
 };
 

@@ -124,17 +124,21 @@ absl::Status CheckOffFace(const Words& words, const MeshLines& lines, std::uint6
 
 }  // namespace
 
-absl::StatusOr<FaceCount> CheckObjContent(std::string_view bytes) {
+absl::StatusOr<MeshContent> CheckObjContent(std::string_view bytes) {
   if (auto status = CheckLastLine("the file", bytes, LastLine::kEnds); !status.ok()) return status;
   MeshLines lines(bytes);
   ObjReferences vertices;
   std::uint64_t faces = 0;
+  std::string reduced;  // assimp knows comments at the beginning of a line only
   for (Words words; lines.Next(words);) {
     const auto status = CheckObjLine(words, lines, vertices, faces);
     if (!status.ok()) return status;
+    if (words.size() < 2) continue;
+    for (const std::string_view word : words) reduced.append(word).append(1, ' ');
+    reduced.back() = '\n';
   }
   if (auto status = vertices.CheckAllUsed(); faces > 0 && !status.ok()) return status;
-  return FaceCount(faces);
+  return MeshContent{.faces = faces, .parts = {}, .buffers = {}, .reduced = std::move(reduced)};
 }
 
 absl::StatusOr<FaceCount> CheckOffContent(std::string_view bytes) {
@@ -170,12 +174,18 @@ absl::StatusOr<FaceCount> CheckOffContent(std::string_view bytes) {
                                   counts->faces, " faces"));
 }
 
-absl::StatusOr<FaceCount> CheckMeshContent(const std::string& extension, std::string_view bytes) {
+absl::StatusOr<MeshContent> CheckMeshContent(const std::string& extension, std::string_view bytes) {
   if (extension == ".stl") return CheckStlContent(bytes);
   if (extension == ".obj") return CheckObjContent(bytes);
-  if (extension == ".off") return CheckOffContent(bytes);
-  if (extension == ".ply") return CheckPlyContent(bytes);
-  return FaceCount();
+  if (extension == ".dae") return CheckDaeContent(bytes);
+  if (extension == ".gltf") return CheckGltfContent(bytes);
+  if (extension == ".glb") return CheckGlbContent(bytes);
+  if (extension != ".off" && extension != ".ply") {
+    return absl::InvalidArgumentError(absl::StrCat(extension, " files are not read"));
+  }
+  const auto faces = extension == ".off" ? CheckOffContent(bytes) : CheckPlyContent(bytes);
+  if (!faces.ok()) return faces.status();
+  return MeshContent{.faces = *faces, .parts = {}, .buffers = {}, .reduced = {}};
 }
 
 }  // namespace clearway

@@ -53,8 +53,8 @@ bool TakeProperty(const std::vector<std::string_view>& words, Header& header) {
   const auto scalar = PlyScalarNamed(words[words.size() - 2]);
   if (!scalar) return false;
   property.scalar = *scalar;
-  property.is_corners = property.count && header.elements.back().name == "face" &&
-                        (words.back() == "vertex_index" || words.back() == "vertex_indices");
+  property.is_corners =
+      property.count && (words.back() == "vertex_index" || words.back() == "vertex_indices");
   header.elements.back().properties.push_back(property);
   return true;
 }
@@ -148,7 +148,7 @@ class Content {
     if (numbers_.Rest() > 0) {
       return Error(absl::StrCat(numbers_.Rest(), " bytes follow what the header states"));
     }
-    return strips_ ? FaceCount() : FaceCount(faces_);
+    return FaceCount(faces_);
   }
 
  private:
@@ -162,8 +162,11 @@ class Content {
 
   absl::Status CheckElement(const Element& element, std::uint64_t i) {
     if (!numbers_.BeginElement()) return CutOff(element, i);
-    strips_ = strips_ || element.name == "tristrips";
     for (const Property& property : element.properties) {
+      if (property.is_corners && element.name != "face") {
+        return Error(absl::StrCat("element ", element.name,
+                                  " lists vertices; only element face is read: export triangles"));
+      }
       double number = 0, count = 1;
       if (property.count && !numbers_.Next(*property.count, count)) return Short(element, i);
       if (count < (property.is_corners ? 3 : 0) || count != std::floor(count)) {
@@ -192,7 +195,6 @@ class Content {
   const Header& header_;
   Numbers numbers_;
   std::uint64_t vertices_ = 0, faces_ = 0;
-  bool strips_ = false;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <cstring>
 #include <string>
 
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "clearway/base/parse_number.h"
 #include "io/mesh_content.h"
@@ -15,14 +17,14 @@ class StlText {
  public:
   explicit StlText(std::string_view text) : lines_(text) {}
 
-  absl::StatusOr<FaceCount> Check() {
+  absl::StatusOr<std::uint64_t> CountFacets() {
     while (NextWord()) {
-      if (word_ != "solid") return Unexpected("solid");
+      if (!Is("solid")) return Unexpected("solid");
       SkipLine();
       if (const auto status = CheckSolid(); !status.ok()) return status;
       SkipLine();
     }
-    return FaceCount(facets_);
+    return facets_;
   }
 
  private:
@@ -35,14 +37,17 @@ class StlText {
     return true;
   }
   void SkipLine() { line_ = {}; }
+  bool Is(std::string_view keyword) const {
+    return absl::EqualsIgnoreCase(std::string(word_), std::string(keyword));
+  }
 
   absl::Status CheckSolid() {
-    while (NextWord() && word_ != "endsolid") {
-      if (word_ != "facet") return Unexpected("facet or endsolid");
+    while (NextWord() && !Is("endsolid")) {
+      if (!Is("facet")) return Unexpected("facet or endsolid");
       if (const auto status = CheckFacet(); !status.ok()) return status;
       ++facets_;
     }
-    return word_ == "endsolid" ? absl::OkStatus() : Unexpected("facet or endsolid");
+    return Is("endsolid") ? absl::OkStatus() : Unexpected("facet or endsolid");
   }
 
   absl::Status CheckFacet() {
@@ -52,7 +57,7 @@ class StlText {
       const bool number = *word == '#';
       double ignored = 0;
       if (!NextWord()) return Unexpected(number ? "a number" : word);
-      if (number ? ParseNumber(word_, ignored) : word_ == word) continue;
+      if (number ? ParseNumber(word_, ignored) : Is(word)) continue;
       return Unexpected(number ? "a number" : word);
     }
     return absl::OkStatus();
@@ -77,6 +82,16 @@ std::uint32_t StatedStlFacets(std::string_view bytes) {
   return count;
 }
 
+// Of the keywords, which may be in upper case; assimp knows small letters only.
+absl::StatusOr<MeshContent> CheckText(std::string_view bytes) {
+  const absl::StatusOr<std::uint64_t> facets = StlText(bytes).CountFacets();
+  if (!facets.ok()) return facets.status();
+  return MeshContent{.faces = *facets,
+                     .parts = {},
+                     .buffers = {},
+                     .reduced = absl::AsciiStrToLower(std::string(bytes))};
+}
+
 }  // namespace
 
 bool IsWholeBinaryStl(std::string_view bytes) {
@@ -84,10 +99,13 @@ bool IsWholeBinaryStl(std::string_view bytes) {
          bytes.size() == kStlHeaderBytes + kStlFacetBytes * StatedStlFacets(bytes);
 }
 
-absl::StatusOr<FaceCount> CheckStlContent(std::string_view bytes) {
-  if (IsWholeBinaryStl(bytes)) return FaceCount(StatedStlFacets(bytes));
+absl::StatusOr<MeshContent> CheckStlContent(std::string_view bytes) {
+  if (IsWholeBinaryStl(bytes)) {
+    return MeshContent{.faces = StatedStlFacets(bytes), .parts = {}, .buffers = {}, .reduced = {}};
+  }
   const bool is_text = bytes.find('\0') == std::string_view::npos;
-  if (is_text && Trimmed(bytes).starts_with("solid")) return StlText(bytes).Check();
+  if (is_text && absl::EqualsIgnoreCase(std::string(Trimmed(bytes).substr(0, 5)), "solid"))
+    return CheckText(bytes);
   if (bytes.size() < kStlHeaderBytes) {
     return absl::InvalidArgumentError(
         absl::StrCat("neither a text that begins with 'solid', nor a binary STL file: it has ",

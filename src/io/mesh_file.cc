@@ -11,6 +11,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <map>
+#include <new>
 #include <set>
 #include <tuple>
 
@@ -18,6 +19,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
 #include "clearway/base/number_text.h"
+#include "io/imported_mesh.h"
 #include "io/mesh_content.h"
 #include "io/mesh_io_system.h"
 
@@ -30,6 +32,7 @@ using Path = std::filesystem::path;
 constexpr std::array<const char*, 7> kExtensions = {".stl", ".obj",  ".ply", ".off",
                                                     ".dae", ".gltf", ".glb"};
 constexpr int kMaxNodeDepth = 1000;
+constexpr float kSliver = 1e-3F;  // a triangle's height over its longest edge
 
 std::string ExtensionOf(const Path& path) {
   return absl::AsciiStrToLower(path.extension().string());
@@ -92,29 +95,48 @@ class MeshBuilder {
     }
     // A reflection turns triangles inside out.
     const bool mirrored = aiMatrix3x3(T_root_node).Determinant() < 0;
+    const std::size_t before = mesh_.triangles.size();
+    bool has_faces = false;
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
-      const aiFace& face = part.mFaces[i];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      if (std::max({face.mIndices[0], face.mIndices[1], face.mIndices[2]}) >= vertices.size()) {
-        return absl::InvalidArgumentError(absl::StrCat("face ", i, " of mesh '", part.mName.C_Str(),
-                                                       "' names a vertex that is not there"));
-      }
-      const Eigen::Vector3d& a = vertices[face.mIndices[0]];
-      const Eigen::Vector3d& b = vertices[face.mIndices[mirrored ? 2 : 1]];
-      const Eigen::Vector3d& c = vertices[face.mIndices[mirrored ? 1 : 2]];
-      AddTriangle(a, b, c);
-      if (mesh_.triangles.size() > options_.max_triangles) {
-        return absl::ResourceExhaustedError(
-            absl::StrCat("more than ", options_.max_triangles, " triangles, the limit"));
-      }
+      if (part.mFaces[i].mNumIndices != 3) continue;  // points and lines
+      has_faces = true;
+      const absl::Status status = AddFace(part, i, vertices, mirrored);
+      if (!status.ok()) return status;
     }
-    return absl::OkStatus();
+    if (!has_faces || mesh_.triangles.size() > before) return absl::OkStatus();
+    return absl::InvalidArgumentError(  // a part would be lost
+        absl::StrCat("mesh '", part.mName.C_Str(), "' has no triangle with an area"));
   }
 
-  void AddTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-    const Eigen::Vector3d normal = (b - a).cross(c - a);
-    if (!(normal.norm() > 0)) return;
-    mesh_.triangles.push_back({IndexOf(a), IndexOf(b), IndexOf(c)});
+  absl::Status AddFace(const aiMesh& part, unsigned i, const std::vector<Eigen::Vector3d>& vertices,
+                       bool mirrored) {
+    const unsigned* const corners = part.mFaces[i].mIndices;
+    if (std::max({corners[0], corners[1], corners[2]}) >= vertices.size()) {
+      return absl::InvalidArgumentError(absl::StrCat("face ", i, " of mesh '", part.mName.C_Str(),
+                                                     "' names a vertex that is not there"));
+    }
+    const Eigen::Vector3d& a = vertices[corners[0]];
+    const Eigen::Vector3d& b = vertices[corners[mirrored ? 2 : 1]];
+    const Eigen::Vector3d& c = vertices[corners[mirrored ? 1 : 2]];
+    if ((b - a).cross(c - a).norm() > 0) {
+      mesh_.triangles.push_back({IndexOf(a), IndexOf(b), IndexOf(c)});
+    } else if (IsWide(part, corners)) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "face ", i, " of mesh '", part.mName.C_Str(),
+          "' loses its area where its node places it: it is too far away, or scaled by 0"));
+    }
+    if (mesh_.triangles.size() <= options_.max_triangles) return absl::OkStatus();
+    return absl::ResourceExhaustedError(
+        absl::StrCat("more than ", options_.max_triangles, " triangles, the limit"));
+  }
+
+  // Whether it is no sliver, which rounding may close, before its node places it.
+  static bool IsWide(const aiMesh& part, const unsigned* corners) {
+    const aiVector3D ab = part.mVertices[corners[1]] - part.mVertices[corners[0]];
+    const aiVector3D ac = part.mVertices[corners[2]] - part.mVertices[corners[0]];
+    const float longest =
+        std::max({ab.SquareLength(), ac.SquareLength(), (ac - ab).SquareLength()});
+    return (ab ^ ac).Length() > kSliver * longest;
   }
 
   std::uint32_t IndexOf(const Eigen::Vector3d& p) {
@@ -143,25 +165,6 @@ void KeepImportersFor(const std::string& extension, Assimp::Importer& importer) 
   }
 }
 
-// Assimp leaves out faces that it cannot read, and ends the program where it cuts ones without a
-// corner into triangles.
-absl::Status CheckFaces(const aiScene& scene, FaceCount expected) {
-  std::uint64_t found = 0;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    for (unsigned i = 0; i < part.mNumFaces; ++i) {
-      if (part.mFaces[i].mNumIndices == 0) {
-        return absl::InvalidArgumentError(
-            absl::StrCat("face ", i, " of mesh '", part.mName.C_Str(), "' has no vertices"));
-      }
-      if (part.mFaces[i].mNumIndices > 2) ++found;
-    }
-  }
-  if (!expected || found == *expected) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("it has ", *expected, " faces, of which ", found, " could be read"));
-}
-
 // A byte order mark stands before text only.
 absl::Status DropByteOrderMark(const std::string& extension, std::string& bytes) {
   if (extension == ".glb" || (extension == ".stl" && IsWholeBinaryStl(bytes))) {
@@ -175,21 +178,22 @@ absl::Status DropByteOrderMark(const std::string& extension, std::string& bytes)
 absl::StatusOr<Mesh> Import(const Path& path, std::string bytes, const MeshFileOptions& options) {
   const absl::Status text = DropByteOrderMark(ExtensionOf(path), bytes);
   if (!text.ok()) return text;
-  const absl::StatusOr<FaceCount> faces = CheckMeshContent(ExtensionOf(path), bytes);
-  if (!faces.ok()) return faces.status();
+  absl::StatusOr<MeshContent> content = CheckMeshContent(ExtensionOf(path), bytes);
+  if (!content.ok()) return content.status();
+  if (content->reduced) bytes = *std::move(content->reduced);
   Assimp::Importer importer;
   KeepImportersFor(ExtensionOf(path).substr(1), importer);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, !options.collada_y_up);
-  const auto files = new MeshIoSystem(path, bytes, options.max_bytes);
+  const auto files = new MeshIoSystem(path, bytes, content->buffers, options.max_bytes);
   importer.SetIOHandler(files);  // which it owns from now on
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (!files->status().ok()) return files->status();
   if (scene != nullptr && scene->mRootNode != nullptr) {
-    if (const auto status = CheckFaces(*scene, *faces); !status.ok()) return status;
+    if (const auto status = CheckImported(*scene, *content); !status.ok()) return status;
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    return absl::InvalidArgumentError(absl::StrCat("not readable: ", importer.GetErrorString()));
+    return absl::InvalidArgumentError(absl::StrCat("cannot be read: ", importer.GetErrorString()));
   }
   return MeshBuilder(*scene, options).Build();
 }
@@ -204,8 +208,10 @@ absl::StatusOr<Mesh> ReadMesh(const Path& path, const MeshFileOptions& options) 
   absl::StatusOr<Mesh> mesh = absl::InternalError("");
   try {
     mesh = Import(path, *std::move(bytes), options);
-  } catch (const std::exception& error) {  // memory, and what assimp does not catch itself
-    mesh = absl::InvalidArgumentError(absl::StrCat("not readable: ", error.what()));
+  } catch (const std::bad_alloc&) {
+    mesh = absl::ResourceExhaustedError("cannot be read: it takes more memory than there is");
+  } catch (const std::exception& error) {  // what assimp does not catch itself
+    mesh = absl::InvalidArgumentError(absl::StrCat("cannot be read: assimp: ", error.what()));
   }
   if (mesh.ok()) return mesh;
   return absl::Status(mesh.status().code(),

@@ -56,8 +56,12 @@ bool MeshIoSystem::IsBuffer(const char* file) const {
   const Path path = Path(file).lexically_normal();
   if (absl::AsciiStrToLower(mesh_.extension().string()) != ".gltf") return false;
   if (absl::AsciiStrToLower(path.extension().string()) != ".bin") return false;
-  const Path relative = path.lexically_relative(mesh_.parent_path().lexically_normal());
-  return !relative.empty() && *relative.begin() != "..";
+  const Path folder = mesh_.parent_path();
+  const Path relative = path.lexically_relative(folder.lexically_normal());
+  if (relative.empty() || *relative.begin() == "..") return false;
+  return std::ranges::any_of(buffers_, [&](const std::string& buffer) {
+    return path == (folder / buffer).lexically_normal();
+  });
 }
 
 bool MeshIoSystem::Exists(const char* file) const {

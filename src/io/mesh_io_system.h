@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 
@@ -13,13 +14,14 @@ namespace clearway {
 
 // Serves the bytes of one mesh file and, to glTF files, the buffers (.bin) that they name in or
 // below their own folder. To assimp no other file exists: materials and textures say nothing about
-// a shape. Used by one thread, as long as one import.
+// a shape, and where it finds no buffer it tries files of that name elsewhere. Used by one thread,
+// as long as one import.
 class MeshIoSystem : public Assimp::IOSystem {
  public:
-  // Both must outlive it.
+  // The first three must outlive it. Buffers are relative to the mesh file's folder.
   MeshIoSystem(const std::filesystem::path& mesh, const std::string& bytes,
-               std::uint64_t max_buffer_bytes)
-      : mesh_(mesh), bytes_(bytes), max_buffer_bytes_(max_buffer_bytes) {}
+               const std::vector<std::string>& buffers, std::uint64_t max_buffer_bytes)
+      : mesh_(mesh), bytes_(bytes), buffers_(buffers), max_buffer_bytes_(max_buffer_bytes) {}
 
   bool Exists(const char* file) const override;
   char getOsSeparator() const override { return '/'; }
@@ -36,6 +38,7 @@ class MeshIoSystem : public Assimp::IOSystem {
 
   const std::filesystem::path& mesh_;
   const std::string& bytes_;
+  const std::vector<std::string>& buffers_;
   std::uint64_t max_buffer_bytes_;
   absl::Status status_;
 };

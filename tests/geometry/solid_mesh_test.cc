@@ -140,8 +140,9 @@ TEST(SolidMesh, WeldsVerticesThatRoundingMovedApart) {
   }
 }
 
-TEST(SolidMesh, SplitsEdgesAtVerticesOnThem) {
-  Mesh mesh = Cube();  // of one side alone the border has more vertices
+// The cube, with four vertices on the border of one side that belong to that side alone.
+Mesh CubeWithVerticesOnEdges() {
+  Mesh mesh = Cube();
   mesh.triangles.erase(mesh.triangles.begin() + 10, mesh.triangles.end());
   const auto add = [&](double x, double y) {
     mesh.vertices.emplace_back(x, y, 0.5);
@@ -153,11 +154,22 @@ TEST(SolidMesh, SplitsEdgesAtVerticesOnThem) {
   for (std::size_t i = 0; i < border.size(); ++i) {
     mesh.triangles.push_back({border[i], border[(i + 1) % border.size()], middle});
   }
+  return mesh;
+}
+
+TEST(SolidMesh, SplitsEdgesAtVerticesOnThem) {
+  const Mesh mesh = CubeWithVerticesOnEdges();
   for (unsigned seed = 0; seed < 20; ++seed) {
     const SolidMesh dut = Made(TurnedAtRandom(mesh, seed));
     ExpectCube(dut);
     EXPECT_THAT(dut.note, HasSubstr("edges split"));
   }
+}
+
+TEST(SolidMesh, CountsFacesAfterTheyWereSplit) {
+  const Mesh mesh = InsideOut(CubeWithVerticesOnEdges());
+  ASSERT_EQ(mesh.triangles.size(), 18u);  // of which each vertex on an edge splits one
+  EXPECT_EQ(Made(mesh).note, "edges split at vertices on them; 22 of 22 faces turned");
 }
 
 TEST(SolidMesh, SeveralSolidsAreTurnedEach) {

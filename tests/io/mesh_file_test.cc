@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "io/mesh_example.h"
 #include "support/data_folder.h"
 #include "support/temporary_folder.h"
 
@@ -123,6 +124,22 @@ TEST(MeshFile, RefusesMeshesWithoutATriangle) {
   EXPECT_THAT(ErrorOf(folder.Write("a.obj", "v 0 0 0\nv 1 1 1\nl 1 2\n")), HasSubstr("triangle"));
   EXPECT_THAT(ErrorOf(folder.Write("a.stl", BinaryStl({{1, 1, 1, 1, 1, 1, 1, 1, 1}}))),
               HasSubstr("triangle"));
+}
+
+TEST(MeshFile, RefusesPartsWithoutATriangle) {
+  TemporaryFolder folder;
+  const std::string flat = "o flat\nv 5 0 0\nv 6 0 0\nv 7 0 0\nf 5 6 7\n";
+  EXPECT_THAT(ErrorOf(folder.Write("a.obj", kTetrahedron + flat)),
+              HasSubstr("mesh 'flat' has no triangle with an area"));
+}
+
+TEST(MeshFile, RefusesPartsThatRoundingFlattens) {
+  TemporaryFolder folder;
+  nlohmann::json json = GltfJson();
+  for (const double x : {4e9, 1e30}) {
+    json["nodes"][1]["translation"][0] = x;
+    EXPECT_THAT(ErrorOf(folder.Write("a.glb", Glb(json))), HasSubstr("loses its area")) << x;
+  }
 }
 
 TEST(MeshFile, RefusesNumbersThatAreNotFinite) {

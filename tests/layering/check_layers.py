@@ -40,7 +40,7 @@ THIRD_PARTY = [
     (r"sqlite3\.h|assimp/", [r"src/io/", r"server/"]),
     (r"zstd\.h", [r"src/(io|wire)/", r"server/"]),
     (r"cairo", [r"src/report/"]),
-    (r"pugixml", [r"clients/cli/"]),
+    (r"pugixml", [r"src/io/", r"clients/cli/"]),
     (r"google/|clearway/v1/|.*\.pb\.h",
      [r"include/clearway/(wire|client)/", r"src/(wire|client)/", r"server/", r"clients/"]),
     (r"grpc|grpcpp/", [r"include/clearway/client/", r"src/(wire|client)/", r"server/", r"clients/",

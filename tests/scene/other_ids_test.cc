@@ -250,7 +250,7 @@ TEST_F(OtherIds, TakeTheirStatedFutureAlong) {
   EXPECT_EQ(object.LastVelocity(), Twist{});
 }
 
-TEST_F(OtherIds, AreNamedByTheirFieldWhenAnObjectIsTooFar) {
+TEST_F(OtherIds, AreNamedWhenAPoseIsTooFar) {
   FrameLimits limits;
   limits.max_coordinate_m = 100;
   dut_.emplace(params_, limits, pool_);
@@ -261,8 +261,10 @@ TEST_F(OtherIds, AreNamedByTheirFieldWhenAnObjectIsTooFar) {
   frame = FrameAt(4.6);
   frame.poses.push_back({9, Pose::Translation(90, 0, 0)});
   const auto report = dut_->Apply(frame);
-  EXPECT_THAT(std::string(report.status().message()),
-              testing::HasSubstr("poses[0].world_from_box"));
+  ASSERT_TRUE(report.ok()) << report.status();
+  ASSERT_EQ(report->issues.size(), 1u);
+  EXPECT_EQ(report->issues[0].kind, ObjectIssueKind::kMotionTooFar);
+  EXPECT_EQ(report->issues[0].id, 9);
 }
 
 TEST_F(OtherIds, TravelWithDifferences) {

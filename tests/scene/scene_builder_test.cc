@@ -245,7 +245,7 @@ TEST_F(SceneBuilderTest, RefusesTooManyObjectsAndChangesNothing) {
   EXPECT_EQ(dut.Publish()->Hash(), hash);
 }
 
-TEST_F(SceneBuilderTest, RefusesAPoseThatPutsAnObjectBeyondTheLimits) {
+TEST_F(SceneBuilderTest, LeavesOutAPoseThatPutsAnObjectBeyondTheLimits) {
   SceneBuilder dut = Builder({}, {.max_coordinate_m = 100});
   Frame frame = FrameAt(0);
   AddPoint(frame, 3, {1, 0, 0});
@@ -253,8 +253,11 @@ TEST_F(SceneBuilderTest, RefusesAPoseThatPutsAnObjectBeyondTheLimits) {
   ASSERT_TRUE(dut.Apply(frame).ok());
   frame = FrameAt(1);
   frame.poses = {{3, Pose::Translation(90, 0, 0)}};
-  const absl::Status status = dut.Apply(frame).status();
-  EXPECT_THAT(std::string(status.message()), testing::StartsWith("poses[0].world_from_box"));
+  const auto report = dut.Apply(frame);
+  ASSERT_TRUE(report.ok()) << report.status();
+  ASSERT_EQ(report->issues.size(), 1u);
+  EXPECT_EQ(report->issues[0].kind, ObjectIssueKind::kMotionTooFar);
+  EXPECT_EQ(dut.Publish()->FindObject(3)->t_k(), At(0));
 }
 
 TEST_F(SceneBuilderTest, TheSameScenesWithAnyNumberOfThreads) {

@@ -20,12 +20,12 @@ struct MeshFileOptions {
 
 // Reads a .stl, .obj, .ply, .off, .dae, .gltf or .glb file by assimp. All meshes of the scene
 // become one, each placed by its nodes' transforms; polygons are cut into triangles, equal vertices
-// joined, triangles without area left out. Files of materials and textures are not looked at; a
+// joined, triangles without area left out. Materials, textures and animations are not looked at; a
 // glTF file's buffers must lie in or below its folder. A unit that a Collada file declares is
 // applied (without one, its numbers are metres); its up-axis is not, unless asked. NOT_FOUND;
-// INVALID_ARGUMENT for another extension, a file that assimp refuses, one that is cut off or does
-// not hold what it states (docs/formats.md), no triangle with an area, or a coordinate that is not
-// finite; RESOURCE_EXHAUSTED.
+// INVALID_ARGUMENT for another extension, a file that assimp refuses, one that is cut off, does not
+// hold what it states or needs what is not supported (docs/formats.md), no triangle with an area,
+// or a coordinate that is not finite; RESOURCE_EXHAUSTED.
 absl::StatusOr<Mesh> ReadMesh(const std::filesystem::path& path,
                               const MeshFileOptions& options = {});
 
