@@ -5,8 +5,10 @@
 #include <grpcpp/health_check_service_interface.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
@@ -17,12 +19,15 @@
 #include "server/status_interceptor.h"
 #include "server/tls_files.h"
 #include "spdlog/spdlog.h"
+#include "wire/unread_output.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
 constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
+// That connections may take after that; within it those whose client reads nothing are cut.
+constexpr std::chrono::seconds kLastBytes(4), kLastReads(1);
 constexpr int kMaxPingStrikes = 2;  // pings that come too early before a client is disconnected
 constexpr int kSpareThreads = 64;   // of gRPC's own, beyond one per call
 
@@ -91,12 +96,18 @@ struct Server::Impl {
   PlanHandlers plan{core};
   InfoHandlers info{core};
   std::unique_ptr<grpc::Server> server;
+  std::optional<UnreadOutput> unread;  // of a Unix socket
   std::string address;
   std::once_flag drained;
+  std::future<void> ended;  // of the transport, while it ends
+  bool ended_in_time = false;
 };
 
 Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Server::~Server() { Drain(); }
+Server::~Server() {
+  Drain();
+  impl_->ended.wait();
+}
 
 const std::string& Server::address() const { return impl_->address; }
 ServerCore& Server::core() { return impl_->core; }
@@ -130,20 +141,29 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   }
   if (listen->socket_path.empty()) listen->port = port;  // the one that was chosen
   impl->address = listen->ToString();
+  if (!listen->socket_path.empty()) {
+    impl->unread.emplace(BoundPath(listen->socket_path), UnreadOutput::End::kServer,
+                         config.keepalive.time + config.keepalive.timeout);
+  }
   impl->server->GetHealthCheckService()->SetServingStatus(true);
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 
-void Server::Drain() {
+bool Server::Drain() {
   std::call_once(impl_->drained, [&] {
     impl_->core.draining = true;
     impl_->server->GetHealthCheckService()->SetServingStatus(false);
     impl_->core.ingestor.Drain();
     impl_->core.versions.Close();
     WaitForCalls(impl_->core);
-    impl_->server->Shutdown(std::chrono::system_clock::now() + kLastAnswers);
-    impl_->server->Wait();
+    if (impl_->unread) impl_->unread->SetPatience(kLastReads);
+    impl_->ended = std::async(std::launch::async, [&server = *impl_->server] {
+      server.Shutdown(std::chrono::system_clock::now() + kLastAnswers);
+      server.Wait();
+    });
+    impl_->ended_in_time = impl_->ended.wait_for(kLastBytes) == std::future_status::ready;
   });
+  return impl_->ended_in_time;
 }
 
 }  // namespace clearway

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -20,6 +21,7 @@
 #include "clearway/v1/occupancy_service.grpc.pb.h"
 #include "clearway/v1/plan_service.grpc.pb.h"
 #include "clearway/v1/server_service.grpc.pb.h"
+#include "wire/unread_output.h"
 
 namespace clearway {
 
@@ -28,6 +30,7 @@ struct Connection::Impl {
   ConnectionOptions options;
   ServerInfo server;
   std::shared_ptr<grpc::Channel> channel;
+  std::optional<UnreadOutput> unread;  // of a Unix socket
   std::unique_ptr<v1::CheckService::Stub> check;
   std::unique_ptr<v1::FollowService::Stub> follow;
   std::unique_ptr<v1::IngestService::Stub> ingest;

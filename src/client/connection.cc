@@ -106,6 +106,10 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   absl::StatusOr<ServerInfo> server = ReadServerInfo(*response);
   if (!server.ok()) return server.status();
   impl->server = *std::move(server);
+  if (address.starts_with("unix:")) {
+    impl->unread.emplace(BoundPath(address.substr(5)), UnreadOutput::End::kClient,
+                         options.keepalive_time + options.keepalive_timeout);
+  }
   return std::shared_ptr<Connection>(new Connection(std::move(impl)));
 }
 

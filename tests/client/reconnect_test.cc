@@ -12,7 +12,8 @@
 #include "clearway/client/scene_mirror.h"
 #include "support/eventually.h"
 #include "support/frames.h"
-#include "support/tcp_relay.h"
+#include "support/relay.h"
+#include "support/temporary_folder.h"
 #include "support/test_server.h"
 
 namespace clearway {
@@ -21,7 +22,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing_support::Eventually;
-using testing_support::TcpRelay;
+using testing_support::Relay;
+using testing_support::ScatteredFrame;
 using testing_support::TestServer;
 
 constexpr Duration kPatience = seconds(60);
@@ -148,7 +150,7 @@ TEST_F(ReconnectTest, AMirrorFollowsARestartedServer) {
 }
 
 TEST_F(ReconnectTest, AMirrorGoesOnFromItsVersionWhenOnlyTheConnectionBroke) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   const auto dut = Follow(Connect(relay.address()));
   FrameSender sender(Connect());
   ASSERT_TRUE(sender.Push(Numbered(1)).ok());
@@ -163,7 +165,7 @@ TEST_F(ReconnectTest, AMirrorGoesOnFromItsVersionWhenOnlyTheConnectionBroke) {
 }
 
 TEST_F(ReconnectTest, AStaleMirrorIsRefusedWhereFreshnessIsAskedFor) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   const auto dut = Follow(Connect(relay.address()));
   const Duration max_age = seconds(2);
   // An idle server's heartbeats keep it fresh.
@@ -180,7 +182,7 @@ TEST_F(ReconnectTest, AStaleMirrorIsRefusedWhereFreshnessIsAskedFor) {
 
 TEST_F(ReconnectTest, StreamsOfAVanishedNetworkAreFreedAndComeBack) {
   Start("127.0.0.1:0", QuickKeepalive());
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   ConnectionOptions options = Patient();
   options.keepalive_time = seconds(1);
   options.keepalive_timeout = seconds(3);
@@ -225,8 +227,59 @@ TEST_F(ReconnectTest, StreamsOfAVanishedNetworkAreFreedAndComeBack) {
   watcher.join();
 }
 
+// A Unix socket has no timeout for bytes that its peer does not take, and pings wait behind them.
+TEST_F(ReconnectTest, StreamsOfAPeerThatReadsNothingFromAUnixSocketAreFreed) {
+  const TemporaryFolder folder;
+  Start("unix:" + (folder / "socket").string(), QuickKeepalive());
+  Relay relay(server_->address());
+  const auto mirror = Follow(Connect(relay.address()));
+  ASSERT_TRUE(Eventually([&] { return Streams() == 1; }));
+  relay.Freeze();
+  FrameSender sender(Connect());
+  std::uint64_t sequence = 0;
+  EXPECT_TRUE(Eventually([&] {
+    EXPECT_TRUE(sender.Push(ScatteredFrame(++sequence)).ok());
+    return Streams() == 0;
+  }));
+  relay.Thaw();
+  EXPECT_TRUE(Eventually([&] { return mirror->state().reconnects == 1; }));
+  EXPECT_TRUE(mirror->WaitFor(sequence + 1, kPatience).ok());
+}
+
+TEST_F(ReconnectTest, ASenderNoticesAServerThatReadsNothingFromAUnixSocket) {
+  const TemporaryFolder folder;
+  Start("unix:" + (folder / "socket").string());
+  Relay relay(server_->address());
+  ConnectionOptions options = Patient();
+  options.keepalive_time = seconds(1);
+  options.keepalive_timeout = seconds(3);
+  FrameSender dut(Connect(relay.address(), options));
+  ASSERT_TRUE(dut.OpenStream(Collect(), AckLevel::kApplied, Quickly()).ok());
+  ASSERT_TRUE(Eventually([&] { return dut.state().connected; }));
+  relay.Freeze();
+  for (std::uint64_t i = 1; i <= 5; ++i) ASSERT_TRUE(dut.Send(ScatteredFrame(i)).ok());
+  EXPECT_TRUE(Eventually([&] { return !dut.state().connected; }));
+  relay.Thaw();
+  EXPECT_TRUE(dut.CloseStream().ok());
+  ExpectAnswered(1, 5);
+  EXPECT_EQ(server_->Newest()->version, 6u);
+}
+
+TEST_F(ReconnectTest, AServerOnAUnixSocketEndsThoughAPeerReadsNothing) {
+  const TemporaryFolder folder;
+  Start("unix:" + (folder / "socket").string());
+  Relay relay(server_->address());
+  const auto mirror = Follow(Connect(relay.address()));
+  relay.Freeze();
+  FrameSender sender(Connect());
+  for (std::uint64_t i = 1; i <= 10; ++i) ASSERT_TRUE(sender.Push(ScatteredFrame(i)).ok());
+  server_.reset();
+  relay.Thaw();
+  EXPECT_TRUE(Eventually([&] { return !mirror->state().connected; }));
+}
+
 TEST_F(ReconnectTest, ASenderSendsAgainWhatWasNotAnswered) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   FrameSender dut(Connect(relay.address()));
   ASSERT_TRUE(dut.OpenStream(Collect(), AckLevel::kApplied, Quickly()).ok());
   for (std::uint64_t i = 1; i <= 60; ++i) {

@@ -17,8 +17,10 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
+#include "clearway/client/scene_mirror.h"
 #include "support/frames.h"
 #include "support/raw_call.h"
+#include "support/relay.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -176,6 +178,31 @@ TEST(ServerProcess, DrainsWithClientsConnected) {
   EXPECT_TRUE(sender.OpenStream([](const auto&, auto, const auto&) {}).ok());
   dut.Signal(SIGTERM);
   EXPECT_EQ(dut.Wait(), 0);
+}
+
+// Over TCP, too, where the kernel would give up after the keepalive's timeout.
+TEST(ServerProcess, EndsThoughAClientReadsNothing) {
+  const TemporaryFolder folder;
+  for (const std::string& listen :
+       {std::string("127.0.0.1:0"), "unix:" + (folder / "socket").string()}) {
+    Process dut({"--listen", listen, "--keepalive-time-s", "3600", "--keepalive-timeout-s", "600",
+                 "--scene-resolution-m", "0.3", "--scene-object-resolution-m", "0.3"});
+    const std::string address = dut.Address();
+    testing_support::Relay relay(address);
+    const auto connection = Connection::Open(relay.address());
+    ASSERT_TRUE(connection.ok()) << connection.status();
+    const auto mirror = SceneMirror::Follow(*connection);
+    ASSERT_TRUE(mirror.ok()) << mirror.status();
+    relay.Freeze();
+    const auto other = Connection::Open(address);
+    ASSERT_TRUE(other.ok()) << other.status();
+    FrameSender sender(*other);
+    for (std::uint64_t i = 1; i <= 20; ++i) {
+      ASSERT_TRUE(sender.Push(testing_support::ScatteredFrame(i)).ok());
+    }
+    dut.Signal(SIGTERM);
+    EXPECT_EQ(dut.Wait(), 0) << listen;
+  }
 }
 
 TEST(ServerProcess, OnlyThreadsThatApplyFramesGiveWay) {

@@ -1,10 +1,11 @@
-// A TCP relay on loopback, to cut connections in a test.
+// A relay on this machine, to cut connections in a test.
 #pragma once
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,32 +18,37 @@
 
 namespace clearway::testing_support {
 
-// Carries bytes between its clients and a server at "127.0.0.1:port", in a thread of its own. Any
-// thread may call any method.
-class TcpRelay {
+// Carries bytes between its clients and a server at "127.0.0.1:port" or "unix:/path", in a thread
+// of its own, and listens at another port, or at "unix:/path.relay". Any thread may call any
+// method.
+class Relay {
  public:
-  explicit TcpRelay(const std::string& server_address)
-      : server_port_(static_cast<std::uint16_t>(
-            std::stoi(server_address.substr(server_address.rfind(':') + 1)))) {
-    listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address = Loopback(0);
-    EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  explicit Relay(const std::string& server_address)
+      : unix_(server_address.starts_with("unix:")),
+        server_(unix_ ? AtPath(server_address.substr(5))
+                      : Loopback(std::stoi(server_address.substr(server_address.rfind(':') + 1)))) {
+    listener_ = Open();
+    // Little is under way, so that a frozen relay soon blocks who writes.
+    const int few_bytes = 4096;
+    if (!unix_) setsockopt(listener_, SOL_SOCKET, SO_RCVBUF, &few_bytes, sizeof few_bytes);
+    Address own = unix_ ? AtPath(server_address.substr(5) + ".relay") : Loopback(0);
+    EXPECT_EQ(bind(listener_, own.get(), own.size), 0);
     EXPECT_EQ(listen(listener_, 64), 0);
-    socklen_t size = sizeof address;
-    getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
-    port_ = ntohs(address.sin_port);
+    getsockname(listener_, own.get(), &own.size);
+    address_ = unix_ ? server_address + ".relay"
+                     : "127.0.0.1:" + std::to_string(ntohs(own.as.internet.sin_port));
     thread_ = std::thread([this] { Run(); });
   }
-  ~TcpRelay() {
+  ~Relay() {
     stop_ = true;
     thread_.join();
     for (const auto& [client, server] : pairs_) Close(client, server);
     close(listener_);
   }
-  TcpRelay(const TcpRelay&) = delete;
-  TcpRelay& operator=(const TcpRelay&) = delete;
+  Relay(const Relay&) = delete;
+  Relay& operator=(const Relay&) = delete;
 
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  const std::string& address() const { return address_; }
   // The network vanishes: connections stay open on both sides, and no byte passes any more.
   void Freeze() { frozen_ = true; }
   void Thaw() { frozen_ = false; }
@@ -52,22 +58,43 @@ class TcpRelay {
  private:
   using Pair = std::pair<int, int>;  // client, server
 
-  static sockaddr_in Loopback(std::uint16_t port) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  struct Address {
+    union {
+      sockaddr any;
+      sockaddr_in internet;
+      sockaddr_un local;
+    } as{};
+    socklen_t size = 0;
+    sockaddr* get() { return &as.any; }
+  };
+  static Address Loopback(int port) {
+    Address address;
+    address.as.internet = {};
+    address.as.internet.sin_family = AF_INET;
+    address.as.internet.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.as.internet.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.size = sizeof address.as.internet;
     return address;
   }
+  static Address AtPath(const std::string& path) {
+    Address address;
+    address.as.local = {};
+    address.as.local.sun_family = AF_UNIX;
+    path.copy(address.as.local.sun_path, sizeof address.as.local.sun_path - 1);
+    address.size = sizeof address.as.local;
+    return address;
+  }
+  int Open() const { return socket(unix_ ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0); }
   static void Close(int client, int server) {
     close(client);
     close(server);
   }
   void Accept() {
     const int client = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
-    const int server = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    const sockaddr_in address = Loopback(server_port_);
-    if (connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const int server = Open();
+    const int few_bytes = 4096;
+    if (!unix_) setsockopt(server, SOL_SOCKET, SO_RCVBUF, &few_bytes, sizeof few_bytes);
+    if (connect(server, server_.get(), server_.size) != 0) {
       return Close(client, server);
     }
     pairs_.push_back({client, server});
@@ -112,9 +139,10 @@ class TcpRelay {
     }
   }
 
-  const std::uint16_t server_port_;
+  const bool unix_;
+  Address server_;
+  std::string address_;
   int listener_ = -1;
-  std::uint16_t port_ = 0;
   std::atomic<bool> stop_ = false, frozen_ = false, drop_ = false;
   std::vector<Pair> pairs_;  // the thread's own
   std::thread thread_;
