@@ -31,7 +31,7 @@ class PushStream {
   PushStream(v1::IngestService::Stub& stub, Options options);
   ~PushStream();  // abandons what is not answered
 
-  // Waits while the window is full; UNAVAILABLE once the stream has ended.
+  // Waits while the window is full; UNAVAILABLE once the stream has ended, with the reason.
   absl::Status Send(v1::PushFramesRequest request);
   // Waits for all answers; says why the stream ended if not all came.
   absl::Status Close();

@@ -153,10 +153,10 @@ absl::Status RemotePlanner::Watch(const MotionBatch& motions, const MotionOption
     if (status.ok() || absl::IsCancelled(status)) {
       status = absl::UnavailableError("the server ended the watch");
     }
-    if (!absl::IsUnavailable(status)) return status;
+    if (!reconnector.MayReturn(status)) return status;
     const bool just_lost = !lost || reconnector.state().connected;
     const std::optional<Duration> pause = reconnector.Lost(status);
-    if (!pause) return status;
+    if (!pause) return reconnector.GivenUp(status);
     lost = true;
     if (just_lost && !tell(news(Unresolved(motions), status))) return absl::OkStatus();
     std::this_thread::sleep_for(*pause);

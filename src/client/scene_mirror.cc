@@ -45,7 +45,7 @@ struct SceneMirror::Impl {
     while (true) {
       const absl::Status status = FollowOnce(from_nothing);
       // A lost connection keeps what we have; anything else is not to be built upon.
-      from_nothing = !absl::IsUnavailable(status);
+      from_nothing = !reconnector.MayReturn(status);
       {
         std::lock_guard lock(mutex);
         connected = false;

@@ -93,6 +93,13 @@ class ReconnectTest : public testing::Test {
     for (std::uint64_t i = first; i <= last; ++i) expected.push_back(i);
     EXPECT_EQ(answered(), expected);
   }
+  // A server with a place for one stream of each kind.
+  void StartForOne() {
+    ServerConfig config = testing_support::SmallConfig();
+    config.limits.max_follow_streams = config.limits.max_push_streams = 1;
+    config.limits.max_watch_streams = 1;
+    server_.emplace(config);
+  }
   // Everything that counts someone who stays connected.
   std::uint64_t Streams() {
     const ServerCore& core = server_->core();
@@ -276,6 +283,54 @@ TEST_F(ReconnectTest, AServerOnAUnixSocketEndsThoughAPeerReadsNothing) {
   server_.reset();
   relay.Thaw();
   EXPECT_TRUE(Eventually([&] { return !mirror->state().connected; }));
+}
+
+// The server still counts the connection that the client has given up.
+TEST_F(ReconnectTest, StreamsComeBackOnceTheirOldPlacesAreFree) {
+  StartForOne();
+  Relay relay(server_->address());
+  const auto connection = Connect(relay.address());
+  const auto mirror = Follow(connection);
+  FrameSender sender(connection);
+  ASSERT_TRUE(sender.OpenStream(Collect(), AckLevel::kApplied, Quickly()).ok());
+  const auto planner = RemotePlanner::For(connection, Robot::SingleShape("ball", Sphere{0.2}));
+  ASSERT_TRUE(planner.ok()) << planner.status();
+  std::atomic<int> told = 0;
+  std::thread watcher([&] {
+    const auto status = (*planner)->Watch(
+        Waiting(), UnknownIsFree(), [&](const RemotePlanner::News&) { return ++told < 3; },
+        Quickly());
+    EXPECT_TRUE(status.ok()) << status;
+  });
+  ASSERT_TRUE(Eventually([&] { return Streams() == 3 && told == 1; }));
+  relay.DropClients();
+  EXPECT_TRUE(Eventually([&] {
+    return absl::IsResourceExhausted(mirror->state().last_error) &&
+           absl::IsResourceExhausted(sender.state().last_error) && told == 2;
+  }));
+  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(sender.Send(Numbered(i)).ok());
+  relay.Release();
+  watcher.join();
+  EXPECT_TRUE(Eventually([&] { return mirror->state().connected && sender.state().connected; }));
+  EXPECT_EQ(mirror->stats().full_syncs, 1u);
+  EXPECT_TRUE(sender.CloseStream().ok());
+  ExpectAnswered(1, 3);
+}
+
+TEST_F(ReconnectTest, ASenderThatFindsNoPlaceEndsAndSaysWhy) {
+  StartForOne();
+  FrameSender first(Connect()), dut(Connect());
+  ASSERT_TRUE(first.OpenStream(Collect()).ok());
+  ASSERT_TRUE(Eventually([&] { return first.state().connected; }));
+  ASSERT_TRUE(dut.OpenStream(Collect()).ok());
+  absl::Status sent;
+  EXPECT_TRUE(Eventually([&] {
+    sent = dut.Send(Numbered(1));
+    return !sent.ok();
+  }));
+  EXPECT_NE(sent.message().find("too many push streams at once; the limit is 1"), std::string::npos)
+      << sent;
+  EXPECT_TRUE(absl::IsResourceExhausted(dut.CloseStream()));
 }
 
 TEST_F(ReconnectTest, ASenderSendsAgainWhatWasNotAnswered) {

@@ -43,6 +43,7 @@ class Relay {
     stop_ = true;
     thread_.join();
     for (const auto& [client, server] : pairs_) Close(client, server);
+    for (const int server : held_) close(server);
     close(listener_);
   }
   Relay(const Relay&) = delete;
@@ -54,6 +55,9 @@ class Relay {
   void Thaw() { frozen_ = false; }
   // Closes the connections there are; new ones are carried.
   void Drop() { drop_ = true; }
+  // Likewise, but the server hears nothing of it until Release.
+  void DropClients() { drop_clients_ = true; }
+  void Release() { release_ = true; }
 
  private:
   using Pair = std::pair<int, int>;  // client, server
@@ -117,6 +121,17 @@ class Relay {
         for (const auto& [client, server] : pairs_) Close(client, server);
         pairs_.clear();
       }
+      if (drop_clients_.exchange(false)) {
+        for (const auto& [client, server] : pairs_) {
+          close(client);
+          held_.push_back(server);
+        }
+        pairs_.clear();
+      }
+      if (release_.exchange(false)) {
+        for (const int server : held_) close(server);
+        held_.clear();
+      }
       std::vector<pollfd> polled{{listener_, POLLIN, 0}};
       for (const auto& [client, server] : pairs_) {
         polled.push_back({client, POLLIN, 0});
@@ -143,8 +158,11 @@ class Relay {
   Address server_;
   std::string address_;
   int listener_ = -1;
-  std::atomic<bool> stop_ = false, frozen_ = false, drop_ = false;
-  std::vector<Pair> pairs_;  // the thread's own
+  std::atomic<bool> stop_ = false, frozen_ = false;
+  std::atomic<bool> drop_ = false, drop_clients_ = false, release_ = false;
+  // The thread's own.
+  std::vector<Pair> pairs_;
+  std::vector<int> held_;  // to the server, without a client
   std::thread thread_;
 };
 
