@@ -28,9 +28,14 @@ absl::StatusOr<std::shared_ptr<Connection>> Connect(const ServerFlags& flags) {
   options.tls_root_certificates_file = flags.tls_root_certificates_file;
   auto connection = Connection::Open(flags.address, options);
   const absl::Status& status = connection.status();
+  const std::string message(status.message()), field = "address: ";
+  if (message.starts_with(field)) {
+    return absl::Status(status.code(), absl::StrCat("--server or CLEARWAY_ADDRESS: ",
+                                                    message.substr(field.size())));
+  }
   if (absl::IsUnavailable(status) || absl::IsDeadlineExceeded(status)) {
     return absl::Status(status.code(),
-                        absl::StrCat("no server answers at ", flags.address, " (", status.message(),
+                        absl::StrCat("no server answers at ", flags.address, " (", message,
                                      ").\nStart one with 'clearway-server', or name another with "
                                      "--server or CLEARWAY_ADDRESS."));
   }

@@ -7,6 +7,7 @@
 #include "clearway/base/file.h"
 #include "clearway/client/error_details.h"
 #include "client/call.h"
+#include "wire/server_address.h"
 #include "wire/server_wire.h"
 #include "wire/status.h"
 
@@ -80,12 +81,15 @@ const ServerInfo& Connection::server() const { return impl_->server; }
 
 absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& address,
                                                              const ConnectionOptions& options) {
+  static const auto* const kUse = new AddressUse{"address", 1, "127.0.0.1 is this machine"};
+  const absl::StatusOr<ServerAddress> target = ParseServerAddress(address, *kUse);
+  if (!target.ok()) return target.status();
   auto credentials = CredentialsOf(options);
   if (!credentials.ok()) return credentials.status();
   auto impl = std::make_unique<Impl>();
   impl->address = address;
   impl->options = options;
-  impl->channel = grpc::CreateCustomChannel(address, *credentials, ArgumentsOf(options));
+  impl->channel = grpc::CreateCustomChannel(target->ToString(), *credentials, ArgumentsOf(options));
   impl->check = v1::CheckService::NewStub(impl->channel);
   impl->follow = v1::FollowService::NewStub(impl->channel);
   impl->ingest = v1::IngestService::NewStub(impl->channel);
@@ -106,8 +110,8 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   absl::StatusOr<ServerInfo> server = ReadServerInfo(*response);
   if (!server.ok()) return server.status();
   impl->server = *std::move(server);
-  if (address.starts_with("unix:")) {
-    impl->unread.emplace(BoundPath(address.substr(5)), UnreadOutput::End::kClient,
+  if (!target->socket_path.empty()) {
+    impl->unread.emplace(BoundPath(target->socket_path), UnreadOutput::End::kClient,
                          options.keepalive_time + options.keepalive_timeout);
   }
   return std::shared_ptr<Connection>(new Connection(std::move(impl)));

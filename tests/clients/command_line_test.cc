@@ -177,6 +177,25 @@ TEST(CommandLine, SaysThatNoServerAnswers) {
   }
 }
 
+TEST(CommandLine, SaysWhatIsWrongWithAnAddress) {
+  for (const auto& [address, part] : std::vector<std::pair<std::string, std::string>>{
+           {"", "is missing; write host:port or unix:/path"},
+           {"127.0.0.1:65537", "port 65537 is out of range; the limit is 65535"},
+           {"127.0.0.1:0", "port 0 is out of range; the least is 1"},
+           {"127.0.0.1:5x", "port \"5x\" is not a number from 1 to 65535"},
+           {"127.0.0.1:5 ", "port \"5 \" is not a number from 1 to 65535"},
+           {"localhost", "localhost is neither host:port nor unix:/path; it names no port"},
+           {"http://localhost:50151",
+            "is a URL and neither host:port nor unix:/path; write "
+            "localhost:50151"},
+           {"/tmp/x.sock", "write unix:/tmp/x.sock if it is a socket's path"}}) {
+    const Finished dut = RunClearway({"status", "--server", address, "--timeout", "1"});
+    EXPECT_EQ(dut.exit_code, 1);
+    EXPECT_THAT(dut.err, StartsWith("clearway: --server or CLEARWAY_ADDRESS: ")) << address;
+    EXPECT_THAT(dut.err, HasSubstr(part));
+  }
+}
+
 TEST(CommandLine, SimulatesAndListsARecording) {
   const TemporaryFolder folder;
   const std::string file = folder / "small.cwr";

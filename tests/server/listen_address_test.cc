@@ -86,7 +86,7 @@ TEST(ListenAddress, IsWrittenAsGrpcWritesIt) {
            {"dns:localhost:65535", "localhost:65535"},
            {"dns:///localhost:1", "localhost:1"},
            {"unix:/run/a b.sock", "unix:/run/a b.sock"},
-           {"unix:///run/a:1", "unix:///run/a:1"},
+           {"unix:///run/a:1", "unix:/run/a:1"},
            {"unix:relative", "unix:relative"}}) {
     const auto dut = ParseListenAddress(text);
     ASSERT_TRUE(dut.ok()) << text << ": " << dut.status();
@@ -99,6 +99,9 @@ TEST(ListenAddress, RefusesWhatIsNone) {
   EXPECT_THAT(Refusal("50151"), HasSubstr("neither host:port nor unix:/path"));
   EXPECT_THAT(Refusal("http://localhost:1"), HasSubstr("neither host:port nor unix:/path"));
   EXPECT_THAT(Refusal("/run/clearway.sock"), HasSubstr("neither host:port nor unix:/path"));
+  EXPECT_THAT(Refusal("http://localhost:1/x"), HasSubstr("write localhost:1"));
+  EXPECT_THAT(Refusal("/run/clearway.sock"), HasSubstr("write unix:/run/clearway.sock"));
+  EXPECT_THAT(Refusal("local host:1"), HasSubstr("the host holds a blank"));
   EXPECT_THAT(Refusal("localhost:70000"),
               HasSubstr("port 70000 is out of range; the limit is 65535"));
   EXPECT_THAT(Refusal("localhost:99999999999"), HasSubstr("out of range"));
