@@ -1,6 +1,7 @@
 #include "cli/server_flags.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/client/error_details.h"
 #include "cli/cli.h"
 
 namespace clearway::cli {
@@ -32,6 +33,12 @@ absl::StatusOr<std::shared_ptr<Connection>> Connect(const ServerFlags& flags) {
   if (message.starts_with(field)) {
     return absl::Status(status.code(), absl::StrCat("--server or CLEARWAY_ADDRESS: ",
                                                     message.substr(field.size())));
+  }
+  if (DetailsOf(status).reason == "TLS") {
+    return absl::Status(status.code(),
+                        absl::StrCat(std::string(status.message()),
+                                     ".\n--tls-roots names the root certificates of a server that "
+                                     "talks TLS."));
   }
   if (absl::IsUnavailable(status) || absl::IsDeadlineExceeded(status)) {
     return absl::Status(status.code(),

@@ -7,6 +7,8 @@
 #include "clearway/base/file.h"
 #include "clearway/client/error_details.h"
 #include "client/call.h"
+#include "client/tls_diagnosis.h"
+#include "wire/pem.h"
 #include "wire/server_address.h"
 #include "wire/server_wire.h"
 #include "wire/status.h"
@@ -27,14 +29,23 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
     return absl::InvalidArgumentError(absl::StrCat(
         "tls_root_certificates_file: ", options.tls_root_certificates_file, ": is empty"));
   }
-  if (pem->find("-----BEGIN ") == std::string::npos) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file,
-                     " holds no certificate in PEM"));
-  }
+  const auto roots = ReadCertificates(
+      absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file), *pem);
+  if (!roots.ok()) return roots.status();
   grpc::SslCredentialsOptions tls;
   tls.pem_root_certs = *std::move(pem);
   return grpc::SslCredentials(tls);
+}
+
+// A server that does not answer for the sake of TLS does answer.
+absl::Status Explained(const absl::Status& status, const ServerAddress& address,
+                       const ConnectionOptions& options) {
+  if (!absl::IsUnavailable(status) && !absl::IsDeadlineExceeded(status)) return status;
+  const std::string why = DiagnoseTls(address, options.tls_root_certificates_file);
+  if (why.empty()) return status;
+  return WithReason(absl::Status(status.code(), absl::StrCat("a server answers at ",
+                                                             address.ToString(), ", but ", why)),
+                    "TLS");
 }
 
 int Milliseconds(Duration duration) {
@@ -106,7 +117,7 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
                                   std::min(options.deadline, kStarting));
   auto response = Call(options, *impl->info, &v1::ServerService::Stub::GetServerInfo,
                        v1::GetServerInfoRequest());
-  if (!response.ok()) return response.status();
+  if (!response.ok()) return Explained(response.status(), *target, options);
   absl::StatusOr<ServerInfo> server = ReadServerInfo(*response);
   if (!server.ok()) return server.status();
   impl->server = *std::move(server);
