@@ -19,8 +19,6 @@
 namespace clearway {
 namespace {
 
-constexpr std::size_t kMaxSocketPath = sizeof(sockaddr_un::sun_path) - 1;
-
 absl::Status ErrorOf(int error, const std::string& what) {
   return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat("listen: ", what));
 }
@@ -87,15 +85,33 @@ absl::Status CheckHost(const ListenAddress& address) {
   return any || first_error == 0 ? absl::OkStatus() : BindError(first_error, address);
 }
 
-bool SomeoneListens(const std::string& path) {
+// OK for a socket that nobody holds any more: gRPC removes it. It would also take it from whoever
+// listens there.
+absl::Status CheckLeftOver(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, kMaxSocketPath);
-  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (client < 0) return ErrorOf(errno, absl::StrCat("no socket: ", std::strerror(errno)));
   const bool answers =
       connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  const int error = answers ? 0 : errno;
   close(client);
-  return answers;
+  switch (error) {
+    case ECONNREFUSED:
+    case ENOENT:
+      return absl::OkStatus();
+    case 0:
+    case EAGAIN:  // more than it takes up are waiting
+      return absl::AlreadyExistsError(
+          absl::StrCat("listen: another server listens on unix:", path));
+    case EPROTOTYPE:
+      return absl::AlreadyExistsError(
+          absl::StrCat("listen: another program holds unix:", path, ", a socket of another kind"));
+    default:
+      return ErrorOf(error, absl::StrCat("cannot tell whether someone listens on unix:", path, ": ",
+                                         std::strerror(error)));
+  }
 }
 
 absl::Status CheckSocket(const std::string& path) {
@@ -115,9 +131,7 @@ absl::Status CheckSocket(const std::string& path) {
   if (!S_ISSOCK(info.st_mode)) {
     return absl::AlreadyExistsError(absl::StrCat("listen: ", path, " exists and is not a socket"));
   }
-  // One that is left over gRPC removes; it would also take it from a server that listens there.
-  if (!SomeoneListens(path)) return absl::OkStatus();
-  return absl::AlreadyExistsError(absl::StrCat("listen: another server listens on unix:", path));
+  return CheckLeftOver(path);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <future>
@@ -72,6 +73,18 @@ void SetKeepalive(const KeepaliveConfig& keepalive, grpc::ServerBuilder& builder
   set(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, keepalive.time + keepalive.timeout);
 }
 
+// What is created meanwhile only its owner can use.
+class OwnersOnly {
+ public:
+  OwnersOnly() : before_(umask(S_IRWXG | S_IRWXO | S_IXUSR)) {}
+  ~OwnersOnly() { umask(before_); }
+  OwnersOnly(const OwnersOnly&) = delete;
+  OwnersOnly& operator=(const OwnersOnly&) = delete;
+
+ private:
+  const mode_t before_;
+};
+
 // Until no call but open push streams is running; those may stay idle for ever.
 void WaitForCalls(const ServerCore& core) {
   const auto end = std::chrono::steady_clock::now() + kLastCalls;
@@ -134,7 +147,10 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(MakeStatusInterceptor());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
-  impl->server = builder.BuildAndStart();
+  {
+    const OwnersOnly owners_only;  // of the socket's file
+    impl->server = builder.BuildAndStart();
+  }
   if (impl->server == nullptr || port == 0) {
     return absl::UnavailableError(absl::StrCat("listen: cannot listen on ", listen->ToString(),
                                                "; gRPC's line above says why"));

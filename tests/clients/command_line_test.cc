@@ -74,6 +74,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"clear-region"}, "box"},
       {{"clear-region", "0,0,0,1,1"}, "x0,y0,z0,x1,y1,z1"},
       {{"clear-region", "0,0,0,1,1,nan"}, "x0,y0,z0,x1,y1,z1"},
+      {{"clear-region", "-inf,0,0,1,1,1"}, "neither a flag nor a list of finite numbers"},
       {{"clear-region", "0,0,2,1,1,1"}, "z0 must not exceed z1"},
       {{"clear-region", "-1,-1,-1,1,inf,1"}, "x0,y0,z0,x1,y1,z1"},
       {{"keep-out", "--add", "3,0,0,1,1,1"}, "--add"},

@@ -189,5 +189,38 @@ TEST(ListenAddress, SocketsOfOtherServersAreLeftAloneAndOldOnesReplaced) {
   EXPECT_TRUE(Check("unix:" + path.string()).ok());
 }
 
+TEST(ListenAddress, SocketsOfOtherProgramsAreLeftAlone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "socket";
+  sockaddr_un local{};
+  local.sun_family = AF_UNIX;
+  path.string().copy(local.sun_path, sizeof local.sun_path - 1);
+  const int datagrams = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(datagrams, reinterpret_cast<const sockaddr*>(&local), sizeof local), 0);
+  ExpectError(Check("unix:" + path.string()), absl::StatusCode::kAlreadyExists,
+              "another program holds unix:" + path.string());
+  close(datagrams);
+  EXPECT_TRUE(Check("unix:" + path.string()).ok());
+}
+
+// A connection that had to wait for them would wait for ever.
+TEST(ListenAddress, AListenerThatIsBusyListens) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "socket";
+  const Listener other(path);
+  sockaddr_un local{};
+  local.sun_family = AF_UNIX;
+  path.string().copy(local.sun_path, sizeof local.sun_path - 1);
+  std::vector<int> waiting;
+  int connected = 0;
+  while (connected == 0) {
+    waiting.push_back(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    connected = connect(waiting.back(), reinterpret_cast<const sockaddr*>(&local), sizeof local);
+  }
+  ExpectError(Check("unix:" + path.string()), absl::StatusCode::kAlreadyExists,
+              "another server listens on unix:" + path.string());
+  for (const int client : waiting) close(client);
+}
+
 }  // namespace
 }  // namespace clearway
