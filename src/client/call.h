@@ -45,6 +45,17 @@ struct Connection::Impl {
 // With the google.rpc details as payloads.
 absl::Status FromGrpc(const grpc::Status& status);
 
+// Until the channel is connected, but half a second at most, and no longer than `stop` allows.
+// While nobody waits for anything gRPC looks at its sockets only every five seconds: what it
+// reports to a call then is old, such as that a server refuses connections that has long been back.
+template <class Stop>
+void AwaitConnection(grpc::Channel& channel, Stop&& stop) {
+  constexpr std::chrono::milliseconds kLook(50);
+  for (int looks = 0; looks < 10 && !stop(); ++looks) {
+    if (channel.WaitForConnected(std::chrono::system_clock::now() + kLook)) return;
+  }
+}
+
 // Calls attempt(grpc::ClientContext*) -> grpc::Status until it ends with anything but UNAVAILABLE,
 // within the connection's deadline and patience.
 template <class Attempt>

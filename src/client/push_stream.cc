@@ -20,8 +20,8 @@ std::optional<std::string> InstanceOf(const grpc::ClientContext& context) {
 
 }  // namespace
 
-PushStream::PushStream(v1::IngestService::Stub& stub, Options options)
-    : stub_(stub),
+PushStream::PushStream(const Connection::Impl& connection, Options options)
+    : connection_(connection),
       options_(std::move(options)),
       reconnector_(options_.reconnect),
       thread_([this] { Run(); }) {}
@@ -102,7 +102,11 @@ absl::Status PushStream::RunOnce() {
     broken_ = false;
     written_ = 0;
   }
-  const auto stream = stub_.PushFrames(&context);
+  AwaitConnection(*connection_.channel, [this] {
+    std::lock_guard lock(mutex_);
+    return stop_;
+  });
+  const auto stream = connection_.ingest->PushFrames(&context);
   std::thread writer([&] { WriteFrames(*stream); });
   stream->WaitForInitialMetadata();
   if (const auto instance = InstanceOf(context)) reconnector_.Connected(*instance);

@@ -90,6 +90,7 @@ absl::StatusOr<PlanOutcome> RemotePlanner::Impl::PlanOnce(
 absl::Status RemotePlanner::Impl::WatchOnce(const v1::WatchMotionsRequest& request,
                                             std::size_t motions,
                                             const std::function<bool(MotionReply)>& take) {
+  AwaitConnection(*registered.connection()->impl().channel, [] { return false; });
   grpc::ClientContext context;
   const auto stream = registered.connection()->impl().check->WatchMotions(&context, request);
   absl::Status broken;

@@ -19,6 +19,7 @@
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
 #include "clearway/client/scene_mirror.h"
+#include "support/eventually.h"
 #include "support/frames.h"
 #include "support/raw_call.h"
 #include "support/relay.h"
@@ -206,6 +207,31 @@ TEST(ServerProcess, EndsThoughAClientReadsNothing) {
   }
 }
 
+// gRPC must not report what it found before the server was back: the next attempt is the last. In a
+// process of its own, for a server's threads would look at the client's sockets as well.
+TEST(ServerProcess, TheFirstAttemptAfterItIsBackSucceeds) {
+  auto dut = std::make_unique<Process>(std::vector<std::string>{"--listen", "127.0.0.1:0"});
+  const std::string address = dut->Address();
+  const auto connection = Connection::Open(address);
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  FrameSender sender(*connection);
+  ReconnectOptions reconnect;
+  reconnect.first_pause = std::chrono::seconds(1);
+  reconnect.max_pause = std::chrono::seconds(4);
+  reconnect.give_up_after = std::chrono::seconds(5);
+  const auto ignore = [](const auto&, auto, const auto&) {};
+  ASSERT_TRUE(sender.OpenStream(ignore, AckLevel::kApplied, reconnect).ok());
+  ASSERT_TRUE(testing_support::Eventually([&] { return sender.state().connected; }));
+  dut.reset();
+  ASSERT_TRUE(testing_support::Eventually(
+      [&] { return sender.state().last_error.message().find("refused") != std::string::npos; }));
+  dut = std::make_unique<Process>(std::vector<std::string>{"--listen", address});
+  ASSERT_EQ(dut->Address(), address);
+  ASSERT_TRUE(sender.Send(testing_support::FrameAt(1)).ok());
+  const absl::Status closed = sender.CloseStream();
+  EXPECT_TRUE(closed.ok()) << closed;
+}
+
 TEST(ServerProcess, OnlyThreadsThatApplyFramesGiveWay) {
   const int usual = getpriority(PRIO_PROCESS, 0);
   const int giving_way = usual + 7;
@@ -228,6 +254,8 @@ TEST(ServerProcess, ListensOnAUnixSocket) {
   const auto connection = Connection::Open(address);
   ASSERT_TRUE(connection.ok()) << connection.status();
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+  EXPECT_EQ(std::filesystem::status(folder / "socket").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   Process second({"--listen", address});
   EXPECT_EQ(second.Wait(), 1);
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
