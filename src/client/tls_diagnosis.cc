@@ -117,8 +117,9 @@ std::string WhyRefused(long error, const ServerAddress& address, const std::stri
       return "the server's certificate, or one that signed it, has expired; renew it, or correct "
              "this machine's date";
     case X509_V_ERR_CERT_NOT_YET_VALID:
-      return "the server's certificate, or one that signed it, is not valid yet; is this machine's "
-             "date right?";
+      return "the server's certificate, or one that signed it, is not valid yet; check this "
+             "machine's "
+             "date";
     case X509_V_ERR_DEPTH_ZERO_SELF_SIGNED_CERT:
     case X509_V_ERR_SELF_SIGNED_CERT_IN_CHAIN:
     case X509_V_ERR_UNABLE_TO_GET_ISSUER_CERT:
