@@ -3,6 +3,8 @@
 #include <toml++/toml.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <sstream>
@@ -29,25 +31,57 @@ const Setting* FindSetting(const std::string& key) {
   return nullptr;
 }
 
+// Numbers may be written in hexadecimal, octal and binary.
 std::string TextOf(const toml::node& node) {
   if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<std::int64_t>()) return absl::StrCat(*number);
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   return out.str();
+}
+
+// Lists within a list are boxes. Only their numbers get into the text, so that their sizes are
+// checked here.
+absl::Status CheckBoxes(const std::string& key, const toml::node& node) {
+  const toml::array* const list = node.as_array();
+  if (list == nullptr) return absl::OkStatus();
+  const auto nested = std::ranges::count_if(*list, [](const auto& e) { return e.is_array(); });
+  for (std::size_t i = 0; nested > 0 && i < list->size(); ++i) {
+    const toml::array* const box = (*list)[i].as_array();
+    if (box != nullptr && box->size() == 6) continue;
+    return absl::InvalidArgumentError(absl::StrCat(
+        key, "[", i,
+        "]: ", box == nullptr ? "is no list" : absl::StrCat("has ", box->size(), " numbers"),
+        "; a box is a list of six: minimum, maximum"));
+  }
+  return absl::OkStatus();
+}
+
+bool IsSection(const std::string& key) {
+  return std::ranges::any_of(Settings(),
+                             [&](const Setting& s) { return s.key.starts_with(key + "."); });
 }
 
 absl::Status CollectToml(const toml::table& table, const std::string& prefix, Values& values) {
   for (const auto& [name, node] : table) {
     const std::string key = prefix + std::string(name.str());
     if (const toml::table* inner = node.as_table()) {
+      if (!IsSection(key)) return Unknown(key);
       if (auto status = CollectToml(*inner, key + ".", values); !status.ok()) return status;
     } else if (FindSetting(key) == nullptr) {
       return Unknown(key);
     } else {
+      if (auto status = CheckBoxes(key, node); !status.ok()) return status;
       values[key] = TextOf(node);
     }
   }
   return absl::OkStatus();
+}
+
+// The variable or file is named when it is to blame.
+absl::Status SetBy(const std::string& origin, const absl::Status& status) {
+  return absl::Status(status.code(),
+                      absl::StrCat(std::string(status.message()), " (set by ", origin, ")"));
 }
 
 absl::Status ReadFile(const std::string& path, Values& values) {
@@ -55,7 +89,8 @@ absl::Status ReadFile(const std::string& path, Values& values) {
   const absl::StatusOr<std::string> text = ReadTextFile(path, kMaxBytes);
   if (!text.ok()) return text.status();
   try {
-    return CollectToml(toml::parse(*text, path), "", values);
+    const absl::Status status = CollectToml(toml::parse(*text, path), "", values);
+    return status.ok() ? status : SetBy(path, status);
   } catch (const toml::parse_error& error) {
     return absl::InvalidArgumentError(
         absl::StrCat(path, ":", error.source().begin.line, ": ", std::string(error.description())));
@@ -98,12 +133,6 @@ absl::StatusOr<Flags> ReadFlags(std::vector<std::string> arguments) {
     if (option->count() > 0) flags.values[key] = texts[key];
   }
   return flags;
-}
-
-// The variable is named when it is to blame.
-absl::Status SetBy(const std::string& variable, const absl::Status& status) {
-  return absl::Status(status.code(),
-                      absl::StrCat(std::string(status.message()), " (set by ", variable, ")"));
 }
 
 absl::Status Require(bool condition, const char* key, const std::string& what) {
@@ -160,8 +189,11 @@ absl::StatusOr<CommandLine> ReadCommandLine(const std::vector<std::string>& argu
   const auto blame = [&](const absl::Status& status) {
     const std::string message(status.message());
     const std::string key = message.substr(0, message.find_first_of(": "));
-    if (flags->values.count(key) != 0 || from_environment.values.count(key) == 0) return status;
-    return SetBy(FindSetting(key)->EnvironmentName(), status);
+    if (flags->values.count(key) != 0) return status;
+    if (from_environment.values.count(key) != 0) {
+      return SetBy(FindSetting(key)->EnvironmentName(), status);
+    }
+    return values.count(key) != 0 ? SetBy(file, status) : status;
   };
   CommandLine line;
   line.print_config = flags->print_config;

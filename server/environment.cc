@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "clearway/base/nearest_name.h"
@@ -39,7 +40,7 @@ std::string UnknownName(const std::string& name) {
   for (const std::string& other : NamesOfOthers()) known.push_back(OwnPart(other));
   const std::string nearest = NearestName(OwnPart(name), known);
   return absl::StrCat(
-      "environment: ", name, " is not a setting and is ignored",
+      "environment: ", absl::CHexEscape(name), " is not a setting and is ignored",
       nearest.empty() ? "" : absl::StrCat("; did you mean ", kPrefix, nearest, "?"));
 }
 

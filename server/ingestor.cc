@@ -171,9 +171,11 @@ void Ingestor::Run() {
 void Ingestor::Count(const FrameName& name, const Answer& answer) {
   if (!answer.ok()) {
     ++counts_.frames_refused;
-    // What has a reason is the server's own failure: the same frame may succeed when it comes
-    // again.
-    if (!ReasonOf(answer.status()).empty()) remembered_.Forget(name);
+    // What has a reason is the server's own failure, and for what is exhausted there may be room
+    // later: the same frame may succeed when it comes again.
+    if (absl::IsResourceExhausted(answer.status()) || !ReasonOf(answer.status()).empty()) {
+      remembered_.Forget(name);
+    }
     return;
   }
   const FrameReport& report = answer->report;

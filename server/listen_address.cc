@@ -8,62 +8,16 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 
 namespace clearway {
 namespace {
-
-constexpr int kMaxPort = 65535;
-constexpr std::size_t kMaxSocketPath = sizeof(sockaddr_un::sun_path) - 1;
-
-absl::Status Bad(const std::string& what) {
-  return absl::InvalidArgumentError(absl::StrCat("listen: ", what));
-}
-
-absl::StatusOr<ListenAddress> ParseSocket(const std::string& path) {
-  if (path.empty()) return Bad("unix: names no path");
-  if (path.starts_with("//") && !path.starts_with("///")) {
-    return Bad(absl::StrCat("unix:", path, " is no path; write unix:relative or unix:/absolute"));
-  }
-  if (path.size() > kMaxSocketPath) {
-    return Bad(absl::StrCat("the socket's path has ", path.size(), " bytes; the limit is ",
-                            kMaxSocketPath));
-  }
-  if (path.find('\0') != std::string::npos) return Bad("the socket's path holds a zero byte");
-  ListenAddress address;
-  address.socket_path = path;
-  return address;
-}
-
-absl::StatusOr<int> ParsePort(const std::string& text, const std::string& whole) {
-  int port = 0;
-  const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), absl::ascii_isdigit);
-  if (!digits) {
-    return Bad(absl::StrCat(whole, ": port \"", text, "\" is not a number from 0 to ", kMaxPort));
-  }
-  if (!absl::SimpleAtoi(text, &port) || port > kMaxPort) {
-    return Bad(absl::StrCat(whole, ": port ", text, " is out of range; the limit is ", kMaxPort));
-  }
-  return port;
-}
-
-// getaddrinfo also knows "127.1" and "2130706433", which others read otherwise.
-absl::Status CheckNumericHost(const std::string& host, const std::string& whole) {
-  in_addr ipv4;
-  const bool numeric = host.find_first_not_of("0123456789.") == std::string::npos;
-  if (!numeric || inet_pton(AF_INET, host.c_str(), &ipv4) == 1) return absl::OkStatus();
-  return Bad(absl::StrCat(whole, ": ", host,
-                          " is not an IPv4 address: four numbers from 0 to 255 with dots between"));
-}
 
 absl::Status ErrorOf(int error, const std::string& what) {
   return absl::Status(absl::ErrnoToStatusCode(error), absl::StrCat("listen: ", what));
@@ -131,15 +85,33 @@ absl::Status CheckHost(const ListenAddress& address) {
   return any || first_error == 0 ? absl::OkStatus() : BindError(first_error, address);
 }
 
-bool SomeoneListens(const std::string& path) {
+// OK for a socket that nobody holds any more: gRPC removes it. It would also take it from whoever
+// listens there.
+absl::Status CheckLeftOver(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, kMaxSocketPath);
-  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (client < 0) return ErrorOf(errno, absl::StrCat("no socket: ", std::strerror(errno)));
   const bool answers =
       connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  const int error = answers ? 0 : errno;
   close(client);
-  return answers;
+  switch (error) {
+    case ECONNREFUSED:
+    case ENOENT:
+      return absl::OkStatus();
+    case 0:
+    case EAGAIN:  // more than it takes up are waiting
+      return absl::AlreadyExistsError(
+          absl::StrCat("listen: another server listens on unix:", path));
+    case EPROTOTYPE:
+      return absl::AlreadyExistsError(
+          absl::StrCat("listen: another program holds unix:", path, ", a socket of another kind"));
+    default:
+      return ErrorOf(error, absl::StrCat("cannot tell whether someone listens on unix:", path, ": ",
+                                         std::strerror(error)));
+  }
 }
 
 absl::Status CheckSocket(const std::string& path) {
@@ -159,18 +131,10 @@ absl::Status CheckSocket(const std::string& path) {
   if (!S_ISSOCK(info.st_mode)) {
     return absl::AlreadyExistsError(absl::StrCat("listen: ", path, " exists and is not a socket"));
   }
-  // One that is left over gRPC removes; it would also take it from a server that listens there.
-  if (!SomeoneListens(path)) return absl::OkStatus();
-  return absl::AlreadyExistsError(absl::StrCat("listen: another server listens on unix:", path));
+  return CheckLeftOver(path);
 }
 
 }  // namespace
-
-std::string ListenAddress::ToString() const {
-  if (!socket_path.empty()) return "unix:" + socket_path;
-  const bool ipv6 = absl::StrContains(host, ':');
-  return absl::StrCat(ipv6 ? "[" : "", host, ipv6 ? "]" : "", ":", port);
-}
 
 bool ListenAddress::IsLocal() const {
   if (!socket_path.empty() || absl::EqualsIgnoreCase(host, "localhost")) return true;
@@ -182,34 +146,11 @@ bool ListenAddress::IsLocal() const {
 }
 
 absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text) {
-  if (text.empty()) return Bad("is missing");
-  if (text.starts_with("unix:")) return ParseSocket(text.substr(5));
-  std::string rest = text;
-  for (const std::string prefix : {"ipv4:", "ipv6:", "dns:///", "dns:"}) {
-    if (!text.starts_with(prefix)) continue;
-    rest = text.substr(prefix.size());
-    break;
-  }
-  const std::size_t colon = rest.rfind(':');
-  if (colon == std::string::npos || absl::StrContains(rest, '/')) {
-    return Bad(absl::StrCat(text, " is neither host:port nor unix:/path"));
-  }
-  ListenAddress address;
-  std::string host = rest.substr(0, colon);
-  const bool bracketed = host.starts_with('[') && host.ends_with(']');
-  if (bracketed) host = host.substr(1, host.size() - 2);
-  if (host.empty()) {
-    return Bad(absl::StrCat(text, " names no host; 0.0.0.0 stands for all of this machine's"));
-  }
-  if (host.find_first_of("[]") != std::string::npos || bracketed != absl::StrContains(host, ':')) {
-    return Bad(absl::StrCat(text, ": an IPv6 address is written [address]:port"));
-  }
-  if (auto status = CheckNumericHost(host, text); !status.ok()) return status;
-  address.host = host;
-  auto port = ParsePort(rest.substr(colon + 1), text);
-  if (!port.ok()) return port.status();
-  address.port = *port;
-  return address;
+  static const auto* const kUse =
+      new AddressUse{"listen", 0, "0.0.0.0 stands for all of this machine's"};
+  auto address = ParseServerAddress(text, *kUse);
+  if (!address.ok()) return address.status();
+  return ListenAddress{*std::move(address)};
 }
 
 absl::Status CheckResolves(const ListenAddress& address) {

@@ -4,24 +4,17 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "wire/server_address.h"
 
 namespace clearway {
 
-// A host and port, or a Unix socket. A plain value.
-struct ListenAddress {
-  std::string socket_path;  // empty: host and port
-  std::string host;         // a name or number, IPv6 without brackets
-  int port = 0;             // 0: any free one
-
-  // As gRPC and clients write it.
-  std::string ToString() const;
+// A plain value.
+struct ListenAddress : ServerAddress {
   // Whether only this machine can connect to it.
   bool IsLocal() const;
 };
 
-// "host:port", "[IPv6]:port" or "unix:path"; gRPC's prefixes ipv4:, ipv6: and dns: may stand before
-// the host. A host of digits and dots is four numbers (not 127.1). INVALID_ARGUMENT saying what is
-// wrong.
+// As ParseServerAddress; port 0 stands for any free one.
 absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text);
 
 // INVALID_ARGUMENT if no address is known for the host. May ask a name server.

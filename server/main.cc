@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,11 @@ int Serve(const ServerConfig& config) {
   int signal = 0;
   sigwait(&signals, &signal);
   spdlog::info("signal {}: draining", signal);
-  (*server)->Drain();
+  if (!(*server)->Drain()) {
+    spdlog::warn("drained; leaving connections whose clients read nothing");
+    spdlog::shutdown();
+    std::quick_exit(0);
+  }
   spdlog::info("drained");
   return 0;
 }

@@ -3,10 +3,13 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
@@ -17,12 +20,15 @@
 #include "server/status_interceptor.h"
 #include "server/tls_files.h"
 #include "spdlog/spdlog.h"
+#include "wire/unread_output.h"
 
 namespace clearway {
 namespace {
 
 constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
 constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
+// That connections may take after that; within it those whose client reads nothing are cut.
+constexpr std::chrono::seconds kLastBytes(4), kLastReads(1);
 constexpr int kMaxPingStrikes = 2;  // pings that come too early before a client is disconnected
 constexpr int kSpareThreads = 64;   // of gRPC's own, beyond one per call
 
@@ -67,6 +73,18 @@ void SetKeepalive(const KeepaliveConfig& keepalive, grpc::ServerBuilder& builder
   set(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, keepalive.time + keepalive.timeout);
 }
 
+// What is created meanwhile only its owner can use.
+class OwnersOnly {
+ public:
+  OwnersOnly() : before_(umask(S_IRWXG | S_IRWXO | S_IXUSR)) {}
+  ~OwnersOnly() { umask(before_); }
+  OwnersOnly(const OwnersOnly&) = delete;
+  OwnersOnly& operator=(const OwnersOnly&) = delete;
+
+ private:
+  const mode_t before_;
+};
+
 // Until no call but open push streams is running; those may stay idle for ever.
 void WaitForCalls(const ServerCore& core) {
   const auto end = std::chrono::steady_clock::now() + kLastCalls;
@@ -91,12 +109,18 @@ struct Server::Impl {
   PlanHandlers plan{core};
   InfoHandlers info{core};
   std::unique_ptr<grpc::Server> server;
+  std::optional<UnreadOutput> unread;  // of a Unix socket
   std::string address;
   std::once_flag drained;
+  std::future<void> ended;  // of the transport, while it ends
+  bool ended_in_time = false;
 };
 
 Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Server::~Server() { Drain(); }
+Server::~Server() {
+  Drain();
+  impl_->ended.wait();
+}
 
 const std::string& Server::address() const { return impl_->address; }
 ServerCore& Server::core() { return impl_->core; }
@@ -123,27 +147,39 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(MakeStatusInterceptor());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
-  impl->server = builder.BuildAndStart();
+  {
+    const OwnersOnly owners_only;  // of the socket's file
+    impl->server = builder.BuildAndStart();
+  }
   if (impl->server == nullptr || port == 0) {
     return absl::UnavailableError(absl::StrCat("listen: cannot listen on ", listen->ToString(),
                                                "; gRPC's line above says why"));
   }
   if (listen->socket_path.empty()) listen->port = port;  // the one that was chosen
   impl->address = listen->ToString();
+  if (!listen->socket_path.empty()) {
+    impl->unread.emplace(BoundPath(listen->socket_path), UnreadOutput::End::kServer,
+                         config.keepalive.time + config.keepalive.timeout);
+  }
   impl->server->GetHealthCheckService()->SetServingStatus(true);
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 
-void Server::Drain() {
+bool Server::Drain() {
   std::call_once(impl_->drained, [&] {
     impl_->core.draining = true;
     impl_->server->GetHealthCheckService()->SetServingStatus(false);
     impl_->core.ingestor.Drain();
     impl_->core.versions.Close();
     WaitForCalls(impl_->core);
-    impl_->server->Shutdown(std::chrono::system_clock::now() + kLastAnswers);
-    impl_->server->Wait();
+    if (impl_->unread) impl_->unread->SetPatience(kLastReads);
+    impl_->ended = std::async(std::launch::async, [&server = *impl_->server] {
+      server.Shutdown(std::chrono::system_clock::now() + kLastAnswers);
+      server.Wait();
+    });
+    impl_->ended_in_time = impl_->ended.wait_for(kLastBytes) == std::future_status::ready;
   });
+  return impl_->ended_in_time;
 }
 
 }  // namespace clearway

@@ -24,8 +24,10 @@ class Server {
   ServerCore& core();
 
   // Turns health to NOT_SERVING, refuses new writes with UNAVAILABLE, applies what was accepted,
-  // answers the calls that are running, and ends the streams.
-  void Drain();
+  // answers the calls that are running, and ends the streams. False if clients that read nothing
+  // still hold connections some seconds later: destroying the server then waits for them, and a
+  // program that ends should leave at once.
+  bool Drain();
 
  private:
   struct Impl;

@@ -10,6 +10,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
+#include "wire/pem.h"
 
 namespace clearway {
 namespace {
@@ -20,7 +21,6 @@ template <class T, void (*free)(T*)>
 struct Deleter {
   void operator()(T* value) const { free(value); }
 };
-using Certificate = std::unique_ptr<X509, Deleter<X509, X509_free>>;
 using Key = std::unique_ptr<EVP_PKEY, Deleter<EVP_PKEY, EVP_PKEY_free>>;
 using Context = std::unique_ptr<SSL_CTX, Deleter<SSL_CTX, SSL_CTX_free>>;
 struct BioDeleter {
@@ -34,14 +34,6 @@ Bio BytesOf(const std::string& pem) {
 
 absl::Status Bad(const char* field, const std::string& path, const std::string& what) {
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", path, " ", what));
-}
-
-// What OpenSSL noted last; clears its notes.
-std::string Reason() {
-  const unsigned long error = ERR_peek_last_error();
-  const char* reason = ERR_reason_error_string(error);
-  ERR_clear_error();
-  return reason == nullptr ? "OpenSSL refuses it" : reason;
 }
 
 absl::StatusOr<std::string> ReadPem(const char* field, const std::string& path) {
@@ -62,7 +54,7 @@ int NoPassphrase(char*, int, int, void* asked) {
 absl::StatusOr<Key> ReadKey(const std::string& pem, const std::string& path) {
   bool encrypted = false;
   Key key(PEM_read_bio_PrivateKey(BytesOf(pem).get(), nullptr, NoPassphrase, &encrypted));
-  const std::string reason = Reason();
+  const std::string reason = OpenSslReason();
   if (key != nullptr) return key;
   if (encrypted)
     return Bad("tls_key", path, "is encrypted; the server needs a key without passphrase");
@@ -78,34 +70,23 @@ absl::StatusOr<Key> ReadKey(const std::string& pem, const std::string& path) {
 // The whole chain; the server's own certificate comes first.
 absl::StatusOr<std::vector<Certificate>> ReadChain(const std::string& pem,
                                                    const std::string& path) {
-  std::vector<Certificate> chain;
-  const Bio bio = BytesOf(pem);
-  while (X509* certificate = PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr)) {
-    chain.emplace_back(certificate);
-  }
-  const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
-  const std::string reason = Reason();
-  if (!at_end) {
-    return Bad("tls_cert", path,
-               absl::StrCat("certificate ", chain.size() + 1, " cannot be read: ", reason));
-  }
-  if (!chain.empty()) return chain;
-  return Bad("tls_cert", path,
-             absl::StrContains(pem, "PRIVATE KEY-----")
-                 ? "holds a private key and no certificate; are tls_cert and tls_key swapped?"
-                 : "holds no certificate in PEM");
+  auto chain = ReadCertificates(absl::StrCat("tls_cert: ", path), pem);
+  if (chain.ok() || !absl::StrContains(chain.status().message(), "private key")) return chain;
+  return absl::InvalidArgumentError(
+      absl::StrCat(std::string(chain.status().message()), "; are tls_cert and tls_key swapped?"));
 }
 
 // What only TLS objects to, such as keys that are too short.
 absl::Status CheckForTls(X509* certificate, EVP_PKEY* key, const std::string& cert_path,
                          const std::string& key_path) {
   const Context context(SSL_CTX_new(TLS_server_method()));
-  if (context == nullptr) return absl::InternalError("tls: OpenSSL does not start: " + Reason());
+  if (context == nullptr)
+    return absl::InternalError("tls: OpenSSL does not start: " + OpenSslReason());
   if (SSL_CTX_use_certificate(context.get(), certificate) != 1) {
-    return Bad("tls_cert", cert_path, "cannot be used for TLS: " + Reason());
+    return Bad("tls_cert", cert_path, "cannot be used for TLS: " + OpenSslReason());
   }
   if (SSL_CTX_use_PrivateKey(context.get(), key) != 1) {
-    return Bad("tls_key", key_path, "cannot be used for TLS: " + Reason());
+    return Bad("tls_key", key_path, "cannot be used for TLS: " + OpenSslReason());
   }
   return absl::OkStatus();
 }

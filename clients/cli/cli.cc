@@ -89,8 +89,10 @@ int Explain(const CLI::App& app, const CLI::ParseError& error, const Terminal& t
       std::ranges::find_if(unknown, [](const auto& w) { return w.starts_with("-") && w != "--"; });
   if (flag != unknown.end()) {
     const bool after = std::ranges::count(unknown, "--") > 0;
-    message = after ? *flag + " comes after --, so it is not read as a flag"
-                    : "there is no flag " + *flag;
+    const bool list = flag->find(',') != std::string::npos;  // such as -inf,0,0
+    message = list    ? "'" + *flag + "' is neither a flag nor a list of finite numbers"
+              : after ? *flag + " comes after --, so it is not read as a flag"
+                      : "there is no flag " + *flag;
   }
   terminal.err << "clearway: " << message << "\nRun '" << command << " --help' for its usage.\n";
   return kExitUsage;

@@ -1,7 +1,9 @@
 // The command line tool `clearway`.
+#include <grpc/support/log.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <string>
 
@@ -24,6 +26,11 @@ void NoteMisspeltAddress() {
   }
 }
 
+// gRPC's own lines repeat what our messages say, in its words. Its variable brings them back.
+void SilenceGrpc() {
+  if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args*) {});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -34,5 +41,6 @@ int main(int argc, char** argv) {
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
     terminal.columns = size.ws_col;
   NoteMisspeltAddress();
+  SilenceGrpc();
   return clearway::cli::RunCli(argc, argv, terminal);
 }

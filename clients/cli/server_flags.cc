@@ -1,6 +1,7 @@
 #include "cli/server_flags.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/client/error_details.h"
 #include "cli/cli.h"
 
 namespace clearway::cli {
@@ -28,9 +29,20 @@ absl::StatusOr<std::shared_ptr<Connection>> Connect(const ServerFlags& flags) {
   options.tls_root_certificates_file = flags.tls_root_certificates_file;
   auto connection = Connection::Open(flags.address, options);
   const absl::Status& status = connection.status();
+  const std::string message(status.message()), field = "address: ";
+  if (message.starts_with(field)) {
+    return absl::Status(status.code(), absl::StrCat("--server or CLEARWAY_ADDRESS: ",
+                                                    message.substr(field.size())));
+  }
+  if (DetailsOf(status).reason == "TLS") {
+    return absl::Status(status.code(),
+                        absl::StrCat(std::string(status.message()),
+                                     ".\n--tls-roots names the root certificates of a server that "
+                                     "talks TLS."));
+  }
   if (absl::IsUnavailable(status) || absl::IsDeadlineExceeded(status)) {
     return absl::Status(status.code(),
-                        absl::StrCat("no server answers at ", flags.address, " (", status.message(),
+                        absl::StrCat("no server answers at ", flags.address, " (", message,
                                      ").\nStart one with 'clearway-server', or name another with "
                                      "--server or CLEARWAY_ADDRESS."));
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -20,6 +21,7 @@
 #include "clearway/v1/occupancy_service.grpc.pb.h"
 #include "clearway/v1/plan_service.grpc.pb.h"
 #include "clearway/v1/server_service.grpc.pb.h"
+#include "wire/unread_output.h"
 
 namespace clearway {
 
@@ -28,6 +30,7 @@ struct Connection::Impl {
   ConnectionOptions options;
   ServerInfo server;
   std::shared_ptr<grpc::Channel> channel;
+  std::optional<UnreadOutput> unread;  // of a Unix socket
   std::unique_ptr<v1::CheckService::Stub> check;
   std::unique_ptr<v1::FollowService::Stub> follow;
   std::unique_ptr<v1::IngestService::Stub> ingest;
@@ -41,6 +44,17 @@ struct Connection::Impl {
 
 // With the google.rpc details as payloads.
 absl::Status FromGrpc(const grpc::Status& status);
+
+// Until the channel is connected, but half a second at most, and no longer than `stop` allows.
+// While nobody waits for anything gRPC looks at its sockets only every five seconds: what it
+// reports to a call then is old, such as that a server refuses connections that has long been back.
+template <class Stop>
+void AwaitConnection(grpc::Channel& channel, Stop&& stop) {
+  constexpr std::chrono::milliseconds kLook(50);
+  for (int looks = 0; looks < 10 && !stop(); ++looks) {
+    if (channel.WaitForConnected(std::chrono::system_clock::now() + kLook)) return;
+  }
+}
 
 // Calls attempt(grpc::ClientContext*) -> grpc::Status until it ends with anything but UNAVAILABLE,
 // within the connection's deadline and patience.

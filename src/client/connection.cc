@@ -7,6 +7,9 @@
 #include "clearway/base/file.h"
 #include "clearway/client/error_details.h"
 #include "client/call.h"
+#include "client/tls_diagnosis.h"
+#include "wire/pem.h"
+#include "wire/server_address.h"
 #include "wire/server_wire.h"
 #include "wire/status.h"
 
@@ -26,14 +29,23 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
     return absl::InvalidArgumentError(absl::StrCat(
         "tls_root_certificates_file: ", options.tls_root_certificates_file, ": is empty"));
   }
-  if (pem->find("-----BEGIN ") == std::string::npos) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file,
-                     " holds no certificate in PEM"));
-  }
+  const auto roots = ReadCertificates(
+      absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file), *pem);
+  if (!roots.ok()) return roots.status();
   grpc::SslCredentialsOptions tls;
   tls.pem_root_certs = *std::move(pem);
   return grpc::SslCredentials(tls);
+}
+
+// A server that does not answer for the sake of TLS does answer.
+absl::Status Explained(const absl::Status& status, const ServerAddress& address,
+                       const ConnectionOptions& options) {
+  if (!absl::IsUnavailable(status) && !absl::IsDeadlineExceeded(status)) return status;
+  const std::string why = DiagnoseTls(address, options.tls_root_certificates_file);
+  if (why.empty()) return status;
+  return WithReason(absl::Status(status.code(), absl::StrCat("a server answers at ",
+                                                             address.ToString(), ", but ", why)),
+                    "TLS");
 }
 
 int Milliseconds(Duration duration) {
@@ -49,7 +61,8 @@ grpc::ChannelArguments ArgumentsOf(const ConnectionOptions& options) {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   // The time that one attempt may take, not a pause: TLS over a slow link needs seconds.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  // Streams and calls make pauses of their own, and an attempt of theirs should be one of gRPC's.
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(options.keepalive_time));
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, Milliseconds(options.keepalive_timeout));
   arguments.SetInt(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
@@ -80,12 +93,15 @@ const ServerInfo& Connection::server() const { return impl_->server; }
 
 absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& address,
                                                              const ConnectionOptions& options) {
+  static const auto* const kUse = new AddressUse{"address", 1, "127.0.0.1 is this machine"};
+  const absl::StatusOr<ServerAddress> target = ParseServerAddress(address, *kUse);
+  if (!target.ok()) return target.status();
   auto credentials = CredentialsOf(options);
   if (!credentials.ok()) return credentials.status();
   auto impl = std::make_unique<Impl>();
   impl->address = address;
   impl->options = options;
-  impl->channel = grpc::CreateCustomChannel(address, *credentials, ArgumentsOf(options));
+  impl->channel = grpc::CreateCustomChannel(target->ToTarget(), *credentials, ArgumentsOf(options));
   impl->check = v1::CheckService::NewStub(impl->channel);
   impl->follow = v1::FollowService::NewStub(impl->channel);
   impl->ingest = v1::IngestService::NewStub(impl->channel);
@@ -102,10 +118,14 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
                                   std::min(options.deadline, kStarting));
   auto response = Call(options, *impl->info, &v1::ServerService::Stub::GetServerInfo,
                        v1::GetServerInfoRequest());
-  if (!response.ok()) return response.status();
+  if (!response.ok()) return Explained(response.status(), *target, options);
   absl::StatusOr<ServerInfo> server = ReadServerInfo(*response);
   if (!server.ok()) return server.status();
   impl->server = *std::move(server);
+  if (!target->socket_path.empty()) {
+    impl->unread.emplace(BoundPath(target->socket_path), UnreadOutput::End::kClient,
+                         options.keepalive_time + options.keepalive_timeout);
+  }
   return std::shared_ptr<Connection>(new Connection(std::move(impl)));
 }
 

@@ -78,8 +78,7 @@ absl::Status FrameSender::OpenStream(OnAck on_ack, AckLevel wait_for,
   options.wait_for = wait_for;
   options.on_ack = std::move(on_ack);
   options.reconnect = reconnect;
-  impl_->stream =
-      std::make_unique<PushStream>(*impl_->connection->impl().ingest, std::move(options));
+  impl_->stream = std::make_unique<PushStream>(impl_->connection->impl(), std::move(options));
   return absl::OkStatus();
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "client/call.h"
 #include "wire/frame_wire.h"
 #include "wire/status.h"
@@ -19,8 +20,8 @@ std::optional<std::string> InstanceOf(const grpc::ClientContext& context) {
 
 }  // namespace
 
-PushStream::PushStream(v1::IngestService::Stub& stub, Options options)
-    : stub_(stub),
+PushStream::PushStream(const Connection::Impl& connection, Options options)
+    : connection_(connection),
       options_(std::move(options)),
       reconnector_(options_.reconnect),
       thread_([this] { Run(); }) {}
@@ -39,7 +40,11 @@ absl::Status PushStream::Send(v1::PushFramesRequest request) {
   request.set_wait_for(ToProto(options_.wait_for));
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return ended_ || pending_.size() < options_.window; });
-  if (ended_) return absl::UnavailableError("the stream has ended");
+  if (ended_) {
+    return absl::UnavailableError(
+        end_.ok() ? "the stream has ended"
+                  : absl::StrCat("the stream has ended: ", std::string(end_.message())));
+  }
   pending_.push_back({std::make_shared<const v1::PushFramesRequest>(std::move(request))});
   changed_.notify_all();
   return absl::OkStatus();
@@ -63,14 +68,14 @@ std::size_t PushStream::unanswered() const {
 void PushStream::Run() {
   while (true) {
     const absl::Status status = RunOnce();
+    const bool may_return = reconnector_.MayReturn(status);
     {
       std::lock_guard lock(mutex_);
-      if (Finished(status)) return End(absl::IsUnavailable(status) ? absl::OkStatus() : status);
+      if (Finished(status)) return End(may_return ? absl::OkStatus() : status);
     }
-    const std::optional<Duration> pause =
-        absl::IsUnavailable(status) ? reconnector_.Lost(status) : std::nullopt;
+    const std::optional<Duration> pause = may_return ? reconnector_.Lost(status) : std::nullopt;
     std::unique_lock lock(mutex_);
-    if (!pause) return End(status);
+    if (!pause) return End(may_return ? reconnector_.GivenUp(status) : status);
     const auto nothing_left = [&] { return stop_ || (closing_ && pending_.empty()); };
     if (changed_.wait_for(lock, *pause, nothing_left)) return End(absl::OkStatus());
   }
@@ -97,7 +102,11 @@ absl::Status PushStream::RunOnce() {
     broken_ = false;
     written_ = 0;
   }
-  const auto stream = stub_.PushFrames(&context);
+  AwaitConnection(*connection_.channel, [this] {
+    std::lock_guard lock(mutex_);
+    return stop_;
+  });
+  const auto stream = connection_.ingest->PushFrames(&context);
   std::thread writer([&] { WriteFrames(*stream); });
   stream->WaitForInitialMetadata();
   if (const auto instance = InstanceOf(context)) reconnector_.Connected(*instance);

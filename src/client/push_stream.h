@@ -12,6 +12,7 @@
 
 #include "clearway/client/frame_sender.h"
 #include "clearway/v1/ingest_service.grpc.pb.h"
+#include "client/call.h"
 #include "client/reconnector.h"
 
 namespace clearway {
@@ -28,10 +29,11 @@ class PushStream {
     FrameSender::OnAck on_ack;
     ReconnectOptions reconnect;
   };
-  PushStream(v1::IngestService::Stub& stub, Options options);
+  // `connection` must outlive the stream.
+  PushStream(const Connection::Impl& connection, Options options);
   ~PushStream();  // abandons what is not answered
 
-  // Waits while the window is full; UNAVAILABLE once the stream has ended.
+  // Waits while the window is full; UNAVAILABLE once the stream has ended, with the reason.
   absl::Status Send(v1::PushFramesRequest request);
   // Waits for all answers; says why the stream ended if not all came.
   absl::Status Close();
@@ -54,7 +56,7 @@ class PushStream {
   bool Finished(const absl::Status& status);  // with the lock held
   void End(const absl::Status& status);
 
-  v1::IngestService::Stub& stub_;
+  const Connection::Impl& connection_;
   const Options options_;
   Reconnector reconnector_;
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "absl/strings/str_cat.h"
+#include "wire/status.h"
+
 namespace clearway {
 
 Reconnector::Reconnector(ReconnectOptions options)
@@ -20,9 +23,23 @@ void Reconnector::Connected(const std::string& instance) {
     }
     state = state_;
   }
+  answered_ = true;
   connected_since_ = Clock::now();
   lost_since_.reset();
   Report(state);
+}
+
+bool Reconnector::MayReturn(const absl::Status& error) const {
+  return absl::IsUnavailable(error) || (answered_ && ReasonOf(error) == "TOO_MANY");
+}
+
+absl::Status Reconnector::GivenUp(const absl::Status& error) const {
+  absl::Status given_up(error.code(),
+                        absl::StrCat(std::string(error.message()), "; gave up after ",
+                                     ToSeconds(options_.give_up_after), " s without the stream"));
+  error.ForEachPayload(
+      [&](auto url, const absl::Cord& payload) { given_up.SetPayload(url, payload); });
+  return given_up;
 }
 
 std::optional<Duration> Reconnector::Lost(const absl::Status& error) {
@@ -40,7 +57,7 @@ std::optional<Duration> Reconnector::Lost(const absl::Status& error) {
   if (was_connected && now - connected_since_ >= options_.max_pause) pause_ = options_.first_pause;
   if (!lost_since_) lost_since_ = now;
   if (was_connected) Report(state);
-  const Duration pause = NextPause();
+  const Duration pause = std::max(NextPause(), RetryDelayOf(error).value_or(Duration::zero()));
   if (now - *lost_since_ + pause > options_.give_up_after) return std::nullopt;
   return pause;
 }

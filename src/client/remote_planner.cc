@@ -90,6 +90,7 @@ absl::StatusOr<PlanOutcome> RemotePlanner::Impl::PlanOnce(
 absl::Status RemotePlanner::Impl::WatchOnce(const v1::WatchMotionsRequest& request,
                                             std::size_t motions,
                                             const std::function<bool(MotionReply)>& take) {
+  AwaitConnection(*registered.connection()->impl().channel, [] { return false; });
   grpc::ClientContext context;
   const auto stream = registered.connection()->impl().check->WatchMotions(&context, request);
   absl::Status broken;
@@ -153,10 +154,10 @@ absl::Status RemotePlanner::Watch(const MotionBatch& motions, const MotionOption
     if (status.ok() || absl::IsCancelled(status)) {
       status = absl::UnavailableError("the server ended the watch");
     }
-    if (!absl::IsUnavailable(status)) return status;
+    if (!reconnector.MayReturn(status)) return status;
     const bool just_lost = !lost || reconnector.state().connected;
     const std::optional<Duration> pause = reconnector.Lost(status);
-    if (!pause) return status;
+    if (!pause) return reconnector.GivenUp(status);
     lost = true;
     if (just_lost && !tell(news(Unresolved(motions), status))) return absl::OkStatus();
     std::this_thread::sleep_for(*pause);

@@ -45,7 +45,7 @@ struct SceneMirror::Impl {
     while (true) {
       const absl::Status status = FollowOnce(from_nothing);
       // A lost connection keeps what we have; anything else is not to be built upon.
-      from_nothing = !absl::IsUnavailable(status);
+      from_nothing = !reconnector.MayReturn(status);
       {
         std::lock_guard lock(mutex);
         connected = false;
@@ -75,6 +75,10 @@ struct SceneMirror::Impl {
       request.set_from_version(base->version);
       request.set_server_instance(instance);
     }
+    AwaitConnection(*connection->impl().channel, [this] {
+      std::lock_guard lock(mutex);
+      return stop;
+    });
     const auto stream = connection->impl().follow->FollowScene(&stream_context, request);
     absl::Status broken = ReadStream(*stream, std::move(base));
     if (!broken.ok()) stream_context.TryCancel();

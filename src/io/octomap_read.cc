@@ -170,9 +170,9 @@ class TreeReader {
 
   bool Leaf(VoxelKey base, int depth, LogOdds value) {
     if (filler_.Fill(base, depth, value)) return true;
-    error_ = absl::ResourceExhaustedError(absl::StrCat(name_, ", byte ", at_,
-                                                       ": the tree expands to more than ",
-                                                       limits_.max_voxels, " voxels, the limit"));
+    error_ = absl::ResourceExhaustedError(absl::StrCat(
+        name_, ", byte ", at_, ": the tree fills more than ", limits_.max_voxels / kVoxelsPerBlock,
+        " blocks of 8 x 8 x 8 voxels, the limit"));
     return false;
   }
 

@@ -2,18 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <mutex>
-#include <optional>
 #include <thread>
 
-#include "clearway/client/frame_sender.h"
-#include "clearway/client/remote_planner.h"
-#include "clearway/client/scene_client.h"
-#include "clearway/client/scene_mirror.h"
+#include "client/lost_server.h"
 #include "support/eventually.h"
-#include "support/frames.h"
-#include "support/tcp_relay.h"
-#include "support/test_server.h"
+#include "support/relay.h"
 
 namespace clearway {
 namespace {
@@ -21,108 +14,13 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing_support::Eventually;
-using testing_support::TcpRelay;
-using testing_support::TestServer;
-
-constexpr Duration kPatience = seconds(60);
-
-// Dead peers are found in seconds.
-KeepaliveConfig QuickKeepalive() { return {seconds(1), seconds(3), milliseconds(500)}; }
-
-ConnectionOptions Patient() {
-  ConnectionOptions options;
-  options.deadline = kPatience;
-  return options;
-}
-
-Frame Numbered(std::uint64_t sequence) {
-  Frame frame = testing_support::FrameAt(0.1 * static_cast<double>(sequence));
-  frame.sequence = sequence;
-  testing_support::AddPoint(frame, kStaticLabel, {3, 0.2 * static_cast<double>(sequence), 0});
-  return frame;
-}
-
-class ReconnectTest : public testing::Test {
- protected:
-  ReconnectTest() { Start(); }
-
-  void Start(const std::string& address = "127.0.0.1:0", const KeepaliveConfig& keepalive = {}) {
-    ServerConfig config = testing_support::SmallConfig();
-    config.listen = address;
-    config.keepalive = keepalive;
-    server_.emplace(config);
-  }
-  // Another server at the same address, with an empty scene.
-  void Restart() {
-    const std::string address = server_->address();
-    server_.reset();
-    Start(address);
-  }
-  std::shared_ptr<Connection> Connect(const std::string& address,
-                                      const ConnectionOptions& options = Patient()) {
-    auto connection = Connection::Open(address, options);
-    EXPECT_TRUE(connection.ok()) << connection.status();
-    return connection.value_or(nullptr);
-  }
-  std::shared_ptr<Connection> Connect() { return Connect(server_->address()); }
-
-  std::unique_ptr<SceneMirror> Follow(const std::shared_ptr<Connection>& connection) {
-    SceneMirrorOptions options;
-    options.heartbeat = milliseconds(100);
-    options.reconnect.max_pause = milliseconds(200);
-    auto mirror = SceneMirror::Follow(connection, options);
-    EXPECT_TRUE(mirror.ok()) << mirror.status();
-    return mirror.ok() ? *std::move(mirror) : nullptr;
-  }
-  FrameSender::OnAck Collect() {
-    return [this](const std::string&, std::uint64_t sequence, const absl::StatusOr<PushAck>& ack) {
-      std::lock_guard lock(mutex_);
-      EXPECT_TRUE(ack.ok()) << sequence << ": " << ack.status();
-      EXPECT_TRUE(!ack.ok() || !ack->repeated_answer) << sequence;
-      answered_.push_back(sequence);
-    };
-  }
-  std::vector<std::uint64_t> answered() {
-    std::lock_guard lock(mutex_);
-    return answered_;
-  }
-  void ExpectAnswered(std::uint64_t first, std::uint64_t last) {
-    std::vector<std::uint64_t> expected;
-    for (std::uint64_t i = first; i <= last; ++i) expected.push_back(i);
-    EXPECT_EQ(answered(), expected);
-  }
-  // Everything that counts someone who stays connected.
-  std::uint64_t Streams() {
-    const ServerCore& core = server_->core();
-    return core.follow_streams + core.push_streams + core.watch_streams;
-  }
-
-  std::optional<TestServer> server_;
-  std::mutex mutex_;
-  std::vector<std::uint64_t> answered_;
-};
-
-ReconnectOptions Quickly() {
-  ReconnectOptions options;
-  options.max_pause = milliseconds(200);
-  return options;
-}
-
-// A robot at rest above the origin for a second.
-MotionBatch Waiting() {
-  MotionBatch motions;
-  motions.knot_counts = {2};
-  motions.times = {Time() + seconds(100), Time() + seconds(101)};
-  motions.T_W_L = {Pose::Translation(0, 0, 1), Pose::Translation(0, 0, 1)};
-  motions.deviations_m = {0, 0};
-  return motions;
-}
-
-MotionOptions UnknownIsFree() {
-  MotionOptions options;
-  options.check.unknown = UnknownPolicy::kFree;
-  return options;
-}
+using testing_support::kPatience;
+using testing_support::Numbered;
+using testing_support::Quickly;
+using testing_support::ReconnectTest;
+using testing_support::Relay;
+using testing_support::UnknownIsFree;
+using testing_support::Waiting;
 
 TEST_F(ReconnectTest, AMirrorFollowsARestartedServer) {
   const auto dut = Follow(Connect());
@@ -148,7 +46,7 @@ TEST_F(ReconnectTest, AMirrorFollowsARestartedServer) {
 }
 
 TEST_F(ReconnectTest, AMirrorGoesOnFromItsVersionWhenOnlyTheConnectionBroke) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   const auto dut = Follow(Connect(relay.address()));
   FrameSender sender(Connect());
   ASSERT_TRUE(sender.Push(Numbered(1)).ok());
@@ -163,7 +61,7 @@ TEST_F(ReconnectTest, AMirrorGoesOnFromItsVersionWhenOnlyTheConnectionBroke) {
 }
 
 TEST_F(ReconnectTest, AStaleMirrorIsRefusedWhereFreshnessIsAskedFor) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   const auto dut = Follow(Connect(relay.address()));
   const Duration max_age = seconds(2);
   // An idle server's heartbeats keep it fresh.
@@ -178,55 +76,8 @@ TEST_F(ReconnectTest, AStaleMirrorIsRefusedWhereFreshnessIsAskedFor) {
   EXPECT_TRUE(Eventually([&] { return dut->Latest(max_age).ok(); }));
 }
 
-TEST_F(ReconnectTest, StreamsOfAVanishedNetworkAreFreedAndComeBack) {
-  Start("127.0.0.1:0", QuickKeepalive());
-  TcpRelay relay(server_->address());
-  ConnectionOptions options = Patient();
-  options.keepalive_time = seconds(1);
-  options.keepalive_timeout = seconds(3);
-  const auto connection = Connect(relay.address(), options);
-  const auto mirror = Follow(connection);
-  FrameSender sender(connection);
-  ASSERT_TRUE(sender.OpenStream(Collect(), AckLevel::kApplied, Quickly()).ok());
-  const auto planner = RemotePlanner::For(connection, Robot::SingleShape("ball", Sphere{0.2}));
-  ASSERT_TRUE(planner.ok()) << planner.status();
-  std::atomic<int> told = 0, losses = 0;
-  std::atomic<bool> enough = false;
-  std::thread watcher([&] {
-    const auto status = (*planner)->Watch(
-        Waiting(), UnknownIsFree(),
-        [&](const RemotePlanner::News& news) {
-          ++(news.connection.ok() ? told : losses);
-          return !enough;
-        },
-        Quickly());
-    EXPECT_TRUE(status.ok()) << status;
-  });
-  ASSERT_TRUE(Eventually([&] { return Streams() == 3 && told > 0; }));
-  relay.Freeze();
-  EXPECT_TRUE(Eventually([&] { return Streams() == 0; }));
-  EXPECT_TRUE(Eventually([&] { return losses > 0 && !mirror->state().connected; }));
-  const int told_before = told;
-  relay.Thaw();
-  EXPECT_TRUE(Eventually([&] {
-    return Streams() == 3 && told > told_before && mirror->state().connected &&
-           sender.state().connected;
-  }));
-  for (int i = 1; i <= 3; ++i) ASSERT_TRUE(sender.Send(Numbered(i)).ok());
-  EXPECT_TRUE(sender.CloseStream().ok());
-  ExpectAnswered(1, 3);
-  enough = true;
-  // A change of what the watch sees ends it.
-  GivenObject post;
-  post.id = 1;
-  post.shape = Sphere{1};
-  post.pose = {server_->Newest()->stamp, Pose::Translation(0, 0, 1)};
-  EXPECT_TRUE(SceneClient(Connect()).AddObjects(std::span(&post, 1)).ok());
-  watcher.join();
-}
-
 TEST_F(ReconnectTest, ASenderSendsAgainWhatWasNotAnswered) {
-  TcpRelay relay(server_->address());
+  Relay relay(server_->address());
   FrameSender dut(Connect(relay.address()));
   ASSERT_TRUE(dut.OpenStream(Collect(), AckLevel::kApplied, Quickly()).ok());
   for (std::uint64_t i = 1; i <= 60; ++i) {

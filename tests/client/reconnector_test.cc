@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "wire/status.h"
+
 namespace clearway {
 namespace {
 
@@ -68,9 +70,23 @@ TEST(Reconnector, CountsStartsOfTheServer) {
   EXPECT_EQ(dut.state().server_restarts, 2u);
 }
 
+TEST(Reconnector, AFullServerIsAskedAgainOnlyByThoseItAnsweredBefore) {
+  const absl::Status full =
+      FromProto(ToProto(WithReason(absl::ResourceExhaustedError("too many"), "TOO_MANY")));
+  const absl::Status too_large = FromProto(ToProto(LimitError("frame", 3, 2)));
+  Reconnector dut({.first_pause = Duration(0)});
+  EXPECT_FALSE(dut.MayReturn(full));
+  EXPECT_TRUE(dut.MayReturn(kLost));
+  dut.Connected();
+  EXPECT_TRUE(dut.MayReturn(full));
+  EXPECT_FALSE(dut.MayReturn(too_large));
+  EXPECT_GE(*dut.Lost(full), *RetryDelayOf(full));
+}
+
 TEST(Reconnector, GivesUp) {
   Reconnector dut({.first_pause = seconds(1), .give_up_after = milliseconds(500)});
   EXPECT_FALSE(dut.Lost(kLost).has_value());
+  EXPECT_EQ(dut.GivenUp(kLost).message(), "lost; gave up after 0.5 s without the stream");
   Reconnector at_once({.give_up_after = Duration(0)});
   EXPECT_FALSE(at_once.Lost(kLost).has_value());
 }

@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST_F(CliServer, Empty) {
@@ -25,6 +26,35 @@ TEST_F(CliServer, Empty) {
   const Finished slice = Clearway({"occupancy", "--slice", "0"});
   EXPECT_EQ(slice.exit_code, 1);
   EXPECT_THAT(slice.err, HasSubstr("clearway: the scene is empty"));
+}
+
+// What a user is to do about TLS, and none of gRPC's own lines.
+TEST(CliTls, SaysWhoExpectsIt) {
+  const TemporaryFolder folder;
+  const std::string cert = (folder / "cert.pem").string(), key = (folder / "key.pem").string();
+  const Finished made =
+      RunProgram({"/usr/bin/env", "openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+                  "ec_paramgen_curve:P-256", "-nodes", "-days", "2", "-subj", "/CN=localhost",
+                  "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", key, "-out", cert});
+  if (made.exit_code != 0) GTEST_SKIP() << "openssl is missing";
+  const ServerProcess with_tls({"--tls-cert", cert, "--tls-key", key}), without;
+  const std::vector<std::string> trusting = {"--tls-roots", cert};
+  for (const auto& [server, flags, part] :
+       std::vector<std::tuple<std::string, std::vector<std::string>, std::string>>{
+           {with_tls.address(), {}, "it seems to expect TLS"},
+           {without.address(), trusting, "it seems not to speak TLS"}}) {
+    std::vector<std::string> arguments = {"status", "--server", server, "--timeout", "2"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Finished dut = RunClearway(arguments);
+    EXPECT_EQ(dut.exit_code, 1);
+    EXPECT_THAT(dut.err, StartsWith("clearway: a server answers at " + server + ", but " + part));
+    EXPECT_THAT(dut.err, HasSubstr("--tls-roots names the root certificates"));
+    EXPECT_THAT(dut.err, Not(HasSubstr("no server answers")));
+    EXPECT_THAT(dut.err, Not(HasSubstr(".cc:")));
+  }
+  const Finished good =
+      RunClearway({"status", "--server", with_tls.address(), "--tls-roots", cert});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
 }
 
 TEST_F(CliServer, GivenObjectsComeAndGo) {

@@ -74,6 +74,7 @@ TEST(CommandLine, UsageErrorsExitWithTwoAndNameTheFlag) {
       {{"clear-region"}, "box"},
       {{"clear-region", "0,0,0,1,1"}, "x0,y0,z0,x1,y1,z1"},
       {{"clear-region", "0,0,0,1,1,nan"}, "x0,y0,z0,x1,y1,z1"},
+      {{"clear-region", "-inf,0,0,1,1,1"}, "neither a flag nor a list of finite numbers"},
       {{"clear-region", "0,0,2,1,1,1"}, "z0 must not exceed z1"},
       {{"clear-region", "-1,-1,-1,1,inf,1"}, "x0,y0,z0,x1,y1,z1"},
       {{"keep-out", "--add", "3,0,0,1,1,1"}, "--add"},
@@ -174,6 +175,25 @@ TEST(CommandLine, SaysThatNoServerAnswers) {
     EXPECT_EQ(dut.exit_code, 1);
     EXPECT_THAT(dut.err, StartsWith("clearway: no server answers at 127.0.0.1:1"));
     EXPECT_THAT(dut.err, HasSubstr("clearway-server"));
+  }
+}
+
+TEST(CommandLine, SaysWhatIsWrongWithAnAddress) {
+  for (const auto& [address, part] : std::vector<std::pair<std::string, std::string>>{
+           {"", "is missing; write host:port or unix:/path"},
+           {"127.0.0.1:65537", "port 65537 is out of range; the limit is 65535"},
+           {"127.0.0.1:0", "port 0 is out of range; the least is 1"},
+           {"127.0.0.1:5x", "port \"5x\" is not a number from 1 to 65535"},
+           {"127.0.0.1:5 ", "port \"5 \" is not a number from 1 to 65535"},
+           {"localhost", "localhost is neither host:port nor unix:/path; it names no port"},
+           {"http://localhost:50151",
+            "is a URL and neither host:port nor unix:/path; write "
+            "localhost:50151"},
+           {"/tmp/x.sock", "write unix:/tmp/x.sock if it is a socket's path"}}) {
+    const Finished dut = RunClearway({"status", "--server", address, "--timeout", "1"});
+    EXPECT_EQ(dut.exit_code, 1);
+    EXPECT_THAT(dut.err, StartsWith("clearway: --server or CLEARWAY_ADDRESS: ")) << address;
+    EXPECT_THAT(dut.err, HasSubstr(part));
   }
 }
 

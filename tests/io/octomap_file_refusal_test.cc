@@ -95,7 +95,8 @@ TEST(OctomapFile, RefusesATreeThatExpandsBeyondTheLimit) {
   const std::string bytes = kHeader + std::string("\x01\x00", 2);  // an eighth of all space
   const auto dut = ParseOctomap("m.bt", bytes);
   EXPECT_EQ(dut.status().code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_THAT(std::string(dut.status().message()), HasSubstr("more than 536870912 voxels"));
+  EXPECT_THAT(std::string(dut.status().message()),
+              HasSubstr("more than 1048576 blocks of 8 x 8 x 8 voxels"));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ THIRD_PARTY = [
     (r"octomap/", [r"src/io/"]),
     (r"libqhull|qhull", [r"src/geometry/"]),
     (r"png\.h", [r"src/io/png\.cc"]),
-    (r"openssl/", [r"server/"]),
+    (r"openssl/", [r"src/(wire|client)/", r"server/"]),
     (r"sqlite3\.h|assimp/", [r"src/io/", r"server/"]),
     (r"zstd\.h", [r"src/(io|wire)/", r"server/"]),
     (r"cairo", [r"src/report/"]),

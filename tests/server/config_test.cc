@@ -181,7 +181,8 @@ TEST(ServerConfig, RefusesNumbersOutOfRangeNamingKeyValueAndRange) {
         dot == std::string::npos ? "" : absl::StrCat("[", key.substr(0, dot), "]\n");
     const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
     const auto file = folder.Write("c.toml", absl::StrCat(section, name, " = \"", value, "\"\n"));
-    EXPECT_EQ(Refusal({"--config", file.string()}), expected);
+    EXPECT_EQ(Refusal({"--config", file.string()}),
+              absl::StrCat(expected, " (set by ", file.string(), ")"));
   }
 }
 
@@ -222,6 +223,37 @@ TEST(ServerConfig, RefusesAFileThatIsNotToml) {
   const auto missing = ReadCommandLine({"--config", (folder / "missing.toml").string()}, {});
   EXPECT_THAT(std::string(missing.status().message()), EndsWith("missing.toml: no such file"));
   EXPECT_THAT(Refusal({"--config", (folder / "").string()}), EndsWith("is a folder"));
+}
+
+TEST(ServerConfig, AFilesBadValuesAreRefusedNamingIt) {
+  const TemporaryFolder folder;
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"[scene]\nkeep_out_m = [[0,0,0,1,1],[1,2,2,2,3,3,3]]\n",
+            "scene.keep_out_m[0]: has 5 numbers; a box is a list of six: minimum, maximum"},
+           {"[scene]\nkeep_out_m = [[0,0,0,1,1,1],2]\n",
+            "scene.keep_out_m[1]: is no list; a box is a list of six: minimum, maximum"},
+           {"[limit]\n", "limit is not a key of the configuration"},
+           {"[scene]\nresolution = 1\n", "scene.resolution is not a key of the configuration"},
+           {"threads = -1\n", "threads: is -1; it must lie between 0 and 256"}}) {
+    const std::string file = folder.Write("c.toml", text).string();
+    EXPECT_EQ(Refusal({"--config", file}), message + " (set by " + file + ")");
+  }
+  const std::string file = folder.Write("c.toml", "threads = -1\n").string();
+  EXPECT_THAT(Refusal({"--config", file, "--threads", "-2"}), EndsWith(" and 256"));
+}
+
+TEST(ServerConfig, AFilesNumbersMayBeWrittenAsTomlAllows) {
+  const TemporaryFolder folder;
+  const std::string file = folder
+                               .Write("c.toml",
+                                      "threads = 0b11\n[limits]\nmax_calls = 0x20\n"
+                                      "max_robots = 0o17\nmax_points_per_frame = 1_000\n")
+                               .string();
+  const ServerConfig dut = Read({"--config", file});
+  EXPECT_EQ(dut.threads, 3);
+  EXPECT_EQ(dut.limits.max_calls, 32u);
+  EXPECT_EQ(dut.limits.max_robots, 15u);
+  EXPECT_EQ(dut.limits.max_points_per_frame, 1000u);
 }
 
 TEST(ServerConfig, AddressesThatOthersReachNeedTls) {

@@ -81,6 +81,11 @@ TEST(Environment, MisspeltKeysAreWarningsWithTheNearestName) {
               ElementsAre(testing::Not(HasSubstr("did you mean"))));
 }
 
+TEST(Environment, NamesDoNotCommandTheTerminal) {
+  EXPECT_THAT(ReadEnvironment({"CLEARWAY_\x1b[31mX=1"}).warnings,
+              ElementsAre(HasSubstr("CLEARWAY_\\x1b[31mX is not a setting")));
+}
+
 TEST(Environment, WarnsInsteadOfRefusing) {
   const auto line = ReadCommandLine({}, {"CLEARWAY_PORT=tcp://10.0.0.1:50151", "CLEARWAY_X=1"});
   ASSERT_TRUE(line.ok()) << line.status();

@@ -116,6 +116,27 @@ TEST_F(IngestorTest, ARepeatGetsTheFirstAnswerAndChangesNothing) {
   EXPECT_EQ(versions_.Newest()->Hash(), hash);
 }
 
+TEST_F(IngestorTest, AFrameForWhichThereWasNoRoomIsAppliedOnceThereIs) {
+  Ingestor::Options options;
+  options.max_queued = 2;
+  options.max_remembered = 3;
+  options.threads = 1;
+  options.frames.max_blocks = 20;
+  dut_ = std::make_unique<Ingestor>(options, versions_);
+  Frame ahead = FrameAt(1), behind = FrameAt(2);
+  testing_support::AddPoint(ahead, kStaticLabel, {10, 0.05, 0.05});
+  testing_support::AddPoint(behind, kStaticLabel, {-10, 0.05, 0.05});
+  ASSERT_TRUE(Push(ahead).ok());
+  ASSERT_TRUE(absl::IsResourceExhausted(Push(behind).status()));
+  ASSERT_TRUE(dut_->Apply([](SceneBuilder& builder) {
+                    builder.ClearRegion({{-100, -100, -100}, {100, 100, 100}});
+                    return absl::OkStatus();
+                  })
+                  .ok());
+  const auto again = Push(behind);
+  EXPECT_TRUE(again.ok()) << again.status();
+}
+
 TEST_F(IngestorTest, ANameWithAnotherStampIsRefusedNamingBoth) {
   ASSERT_TRUE(Push(Numbered(0, 1)).ok());
   const std::string hash = versions_.Newest()->Hash();

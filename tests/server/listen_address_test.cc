@@ -86,7 +86,7 @@ TEST(ListenAddress, IsWrittenAsGrpcWritesIt) {
            {"dns:localhost:65535", "localhost:65535"},
            {"dns:///localhost:1", "localhost:1"},
            {"unix:/run/a b.sock", "unix:/run/a b.sock"},
-           {"unix:///run/a:1", "unix:///run/a:1"},
+           {"unix:///run/a:1", "unix:/run/a:1"},
            {"unix:relative", "unix:relative"}}) {
     const auto dut = ParseListenAddress(text);
     ASSERT_TRUE(dut.ok()) << text << ": " << dut.status();
@@ -99,6 +99,9 @@ TEST(ListenAddress, RefusesWhatIsNone) {
   EXPECT_THAT(Refusal("50151"), HasSubstr("neither host:port nor unix:/path"));
   EXPECT_THAT(Refusal("http://localhost:1"), HasSubstr("neither host:port nor unix:/path"));
   EXPECT_THAT(Refusal("/run/clearway.sock"), HasSubstr("neither host:port nor unix:/path"));
+  EXPECT_THAT(Refusal("http://localhost:1/x"), HasSubstr("write localhost:1"));
+  EXPECT_THAT(Refusal("/run/clearway.sock"), HasSubstr("write unix:/run/clearway.sock"));
+  EXPECT_THAT(Refusal("local host:1"), HasSubstr("the host holds a blank"));
   EXPECT_THAT(Refusal("localhost:70000"),
               HasSubstr("port 70000 is out of range; the limit is 65535"));
   EXPECT_THAT(Refusal("localhost:99999999999"), HasSubstr("out of range"));
@@ -184,6 +187,39 @@ TEST(ListenAddress, SocketsOfOtherServersAreLeftAloneAndOldOnesReplaced) {
   }
   ASSERT_TRUE(std::filesystem::exists(path));
   EXPECT_TRUE(Check("unix:" + path.string()).ok());
+}
+
+TEST(ListenAddress, SocketsOfOtherProgramsAreLeftAlone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "socket";
+  sockaddr_un local{};
+  local.sun_family = AF_UNIX;
+  path.string().copy(local.sun_path, sizeof local.sun_path - 1);
+  const int datagrams = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(datagrams, reinterpret_cast<const sockaddr*>(&local), sizeof local), 0);
+  ExpectError(Check("unix:" + path.string()), absl::StatusCode::kAlreadyExists,
+              "another program holds unix:" + path.string());
+  close(datagrams);
+  EXPECT_TRUE(Check("unix:" + path.string()).ok());
+}
+
+// A connection that had to wait for them would wait for ever.
+TEST(ListenAddress, AListenerThatIsBusyListens) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "socket";
+  const Listener other(path);
+  sockaddr_un local{};
+  local.sun_family = AF_UNIX;
+  path.string().copy(local.sun_path, sizeof local.sun_path - 1);
+  std::vector<int> waiting;
+  int connected = 0;
+  while (connected == 0) {
+    waiting.push_back(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    connected = connect(waiting.back(), reinterpret_cast<const sockaddr*>(&local), sizeof local);
+  }
+  ExpectError(Check("unix:" + path.string()), absl::StatusCode::kAlreadyExists,
+              "another server listens on unix:" + path.string());
+  for (const int client : waiting) close(client);
 }
 
 }  // namespace

@@ -15,10 +15,14 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/client/error_details.h"
 #include "clearway/client/frame_sender.h"
 #include "clearway/client/scene_client.h"
+#include "clearway/client/scene_mirror.h"
+#include "support/eventually.h"
 #include "support/frames.h"
 #include "support/raw_call.h"
+#include "support/relay.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -178,6 +182,56 @@ TEST(ServerProcess, DrainsWithClientsConnected) {
   EXPECT_EQ(dut.Wait(), 0);
 }
 
+// Over TCP, too, where the kernel would give up after the keepalive's timeout.
+TEST(ServerProcess, EndsThoughAClientReadsNothing) {
+  const TemporaryFolder folder;
+  for (const std::string& listen :
+       {std::string("127.0.0.1:0"), "unix:" + (folder / "socket").string()}) {
+    Process dut({"--listen", listen, "--keepalive-time-s", "3600", "--keepalive-timeout-s", "600",
+                 "--scene-resolution-m", "0.3", "--scene-object-resolution-m", "0.3"});
+    const std::string address = dut.Address();
+    testing_support::Relay relay(address);
+    const auto connection = Connection::Open(relay.address());
+    ASSERT_TRUE(connection.ok()) << connection.status();
+    const auto mirror = SceneMirror::Follow(*connection);
+    ASSERT_TRUE(mirror.ok()) << mirror.status();
+    relay.Freeze();
+    const auto other = Connection::Open(address);
+    ASSERT_TRUE(other.ok()) << other.status();
+    FrameSender sender(*other);
+    for (std::uint64_t i = 1; i <= 20; ++i) {
+      ASSERT_TRUE(sender.Push(testing_support::ScatteredFrame(i)).ok());
+    }
+    dut.Signal(SIGTERM);
+    EXPECT_EQ(dut.Wait(), 0) << listen;
+  }
+}
+
+// gRPC must not report what it found before the server was back: the next attempt is the last. In a
+// process of its own, for a server's threads would look at the client's sockets as well.
+TEST(ServerProcess, TheFirstAttemptAfterItIsBackSucceeds) {
+  auto dut = std::make_unique<Process>(std::vector<std::string>{"--listen", "127.0.0.1:0"});
+  const std::string address = dut->Address();
+  const auto connection = Connection::Open(address);
+  ASSERT_TRUE(connection.ok()) << connection.status();
+  FrameSender sender(*connection);
+  ReconnectOptions reconnect;
+  reconnect.first_pause = std::chrono::seconds(1);
+  reconnect.max_pause = std::chrono::seconds(4);
+  reconnect.give_up_after = std::chrono::seconds(5);
+  const auto ignore = [](const auto&, auto, const auto&) {};
+  ASSERT_TRUE(sender.OpenStream(ignore, AckLevel::kApplied, reconnect).ok());
+  ASSERT_TRUE(testing_support::Eventually([&] { return sender.state().connected; }));
+  dut.reset();
+  ASSERT_TRUE(testing_support::Eventually(
+      [&] { return sender.state().last_error.message().find("refused") != std::string::npos; }));
+  dut = std::make_unique<Process>(std::vector<std::string>{"--listen", address});
+  ASSERT_EQ(dut->Address(), address);
+  ASSERT_TRUE(sender.Send(testing_support::FrameAt(1)).ok());
+  const absl::Status closed = sender.CloseStream();
+  EXPECT_TRUE(closed.ok()) << closed;
+}
+
 TEST(ServerProcess, OnlyThreadsThatApplyFramesGiveWay) {
   const int usual = getpriority(PRIO_PROCESS, 0);
   const int giving_way = usual + 7;
@@ -200,6 +254,8 @@ TEST(ServerProcess, ListensOnAUnixSocket) {
   const auto connection = Connection::Open(address);
   ASSERT_TRUE(connection.ok()) << connection.status();
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
+  EXPECT_EQ(std::filesystem::status(folder / "socket").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   Process second({"--listen", address});
   EXPECT_EQ(second.Wait(), 1);
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
@@ -261,15 +317,60 @@ TEST(ServerProcess, ServesTls) {
   const std::string port = address.substr(address.rfind(':'));
   ConnectionOptions options;
   options.retry_for = std::chrono::milliseconds(200);
-  EXPECT_FALSE(Connection::Open("localhost" + port, options).ok());  // plain text
+  const auto refusal = [&](const std::string& where) {
+    const absl::Status status = Connection::Open(where, options).status();
+    EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+    EXPECT_EQ(DetailsOf(status).reason, "TLS");
+    return std::string(status.message());
+  };
+  EXPECT_THAT(refusal("localhost" + port), testing::HasSubstr("it seems to expect TLS"));
   options.tls_root_certificates_file = cert;
   const auto connection = Connection::Open("localhost" + port, options);
   ASSERT_TRUE(connection.ok()) << connection.status();
   EXPECT_TRUE(SceneClient(*connection).GetStatus().ok());
-  options.tls_root_certificates_file = folder.Write("words.pem", "words").string();
-  EXPECT_TRUE(absl::IsInvalidArgument(Connection::Open(address, options).status()));
+  EXPECT_THAT(refusal("127.0.0.2" + port), testing::HasSubstr("is not for the host 127.0.0.2"));
+  Process plain({"--listen", "127.0.0.1:0"});
+  EXPECT_THAT(refusal(plain.Address()), testing::HasSubstr("it seems not to speak TLS"));
+  ASSERT_EQ(std::system(absl::StrCat("openssl req -x509 -newkey ec -pkeyopt ",
+                                     "ec_paramgen_curve:P-256 -nodes -subj /CN=other -keyout ", key,
+                                     "2 -out ", cert, "2 2>/dev/null")
+                            .c_str()),
+            0);
+  options.tls_root_certificates_file = cert + "2";
+  EXPECT_THAT(refusal("localhost" + port), testing::HasSubstr("was not signed by an authority of"));
+  const std::string whole = BytesOf(cert);
+  for (const auto& [bytes, part] : std::vector<std::pair<std::string, std::string>>{
+           {"words", "holds no certificate in PEM"},
+           {BytesOf(key), "holds a private key and no certificate"},
+           {whole.substr(0, whole.size() / 2), "certificate 1 cannot be read"}}) {
+    options.tls_root_certificates_file = folder.Write("roots.pem", bytes).string();
+    const absl::Status status = Connection::Open(address, options).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr(part));
+  }
   options.tls_root_certificates_file = (folder / "missing.pem").string();
   EXPECT_TRUE(absl::IsNotFound(Connection::Open(address, options).status()));
+}
+
+TEST(ServerProcess, ClientsSayThatItsCertificateHasExpired) {
+  const TemporaryFolder folder;
+  const std::string cert = (folder / "cert.pem").string(), key = (folder / "key.pem").string();
+  const std::string request = (folder / "request.pem").string();
+  const std::string make =
+      "openssl req -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj /CN=localhost "
+      "-keyout " +
+      key + " -out " + request + " 2>/dev/null && openssl x509 -req -in " + request + " -signkey " +
+      key + " -days -1 -out " + cert + " 2>/dev/null";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "openssl is missing";
+  Process dut({"--listen", "127.0.0.1:0", "--tls-cert", cert, "--tls-key", key});
+  const std::string address = dut.Address();
+  ASSERT_FALSE(address.empty()) << dut.RestOfOutput();
+  ConnectionOptions options;
+  options.retry_for = std::chrono::milliseconds(200);
+  options.tls_root_certificates_file = cert;
+  const std::string port = address.substr(address.rfind(':'));
+  EXPECT_THAT(std::string(Connection::Open("localhost" + port, options).status().message()),
+              testing::HasSubstr("has expired"));
 }
 
 TEST(ServerProcess, RefusesAKeyOfAnotherCertificate) {

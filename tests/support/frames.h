@@ -57,6 +57,16 @@ inline void AddObject(Frame& frame, ObjectId id, const Pose& T_W_B,
   for (const Eigen::Vector3d& p_B : points_B) AddPoint(frame, id, T_S_W * (T_W_B * p_B));
 }
 
+// Points all over the place, other ones for each sequence: versions that differ by much, so that a
+// few of them fill the buffers of a connection.
+inline Frame ScatteredFrame(std::uint64_t sequence) {
+  Frame frame = FrameAt(0.1 * static_cast<double>(sequence));
+  frame.sequence = sequence;
+  Random random(static_cast<unsigned>(sequence));
+  for (int i = 0; i < 4000; ++i) AddPoint(frame, kStaticLabel, random.Vector(30));
+  return frame;
+}
+
 // Random frames: static clutter, objects that come, go and come back, motions, poses, neither,
 // parts of other objects.
 class RandomFrames {

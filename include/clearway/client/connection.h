@@ -32,8 +32,10 @@ struct ConnectionOptions {
 // made from it keeps it alive.
 class Connection {
  public:
-  // `address` as gRPC writes it: "127.0.0.1:50151", "unix:/run/clearway.sock". Connects and reads
-  // the server's information: UNAVAILABLE if nobody answers within the deadline.
+  // `address`: "host:port", "[IPv6]:port", "unix:/path" or "unix:path"; gRPC's prefixes ipv4:,
+  // ipv6: and dns: may stand before a host. Connects and reads the server's information.
+  // INVALID_ARGUMENT for what is no address, UNAVAILABLE if nobody answers within the deadline, or
+  // if TLS is to blame (ErrorDetails::reason is TLS), saying why.
   static absl::StatusOr<std::shared_ptr<Connection>> Open(const std::string& address,
                                                           const ConnectionOptions& options = {});
   ~Connection();

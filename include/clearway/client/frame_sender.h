@@ -54,8 +54,7 @@ class FrameSender {
   absl::Status OpenStream(OnAck on_ack, AckLevel wait_for = AckLevel::kApplied,
                           const ReconnectOptions& reconnect = {});
   // Queues the next frame; waits while the window (the server's max_frames_in_flight) is full, and
-  // so while the connection is lost. An error means that the stream has ended: CloseStream says
-  // why.
+  // so while the connection is lost. An error means that the stream has ended, and says why.
   absl::Status Send(const Frame& frame);
   absl::Status Send(const Frame& frame, const DepthImage& image);
   // Waits for all answers and ends the stream. A frame that was sent but never answered is an
