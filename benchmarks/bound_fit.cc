@@ -81,6 +81,7 @@ BoundModel FitNumbers(const std::vector<BoundNumber>& numbers,
 std::vector<BoundNumber> NumbersInMotion() {
   return {{"factor", &BoundModel::factor},
           {"prior_count", &BoundModel::prior_count},
+          {"near_prior_count", &BoundModel::near_prior_count},
           {"late_weight", &BoundModel::late_weight},
           {"soon_weight", &BoundModel::soon_weight},
           {"unknown_jitter_m", &BoundModel::unknown_jitter_m},

@@ -1,7 +1,6 @@
 // clearway replay: frames of any source to a server.
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/client/frame_sender.h"
@@ -12,7 +11,9 @@
 #include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/open_source.h"
+#include "cli/pace.h"
 #include "cli/progress.h"
+#include "cli/replay_summary.h"
 #include "cli/server_flags.h"
 #include "cli/source_notes.h"
 #include "cli/text.h"
@@ -42,27 +43,6 @@ struct Flags {
   std::uint64_t sensor_run = 0;
   bool quiet = false;
   bool json = false;
-};
-
-// Sleeps so that frames leave in the rhythm of their stamps, `rate` times as fast.
-class Pace {
- public:
-  explicit Pace(std::optional<double> rate) : rate_(rate) {}
-
-  void WaitFor(Time stamp) {
-    if (!rate_) return;
-    if (!started_) first_ = stamp;
-    started_ = true;
-    std::this_thread::sleep_until(
-        start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                     std::chrono::duration<double>(ToSeconds(stamp - first_) / *rate_)));
-  }
-
- private:
-  const std::optional<double> rate_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  bool started_ = false;
-  Time first_;  // the first frame's
 };
 
 // Frames that could not be read.
@@ -124,48 +104,6 @@ ReconnectOptions Reconnect(const Flags& flags, AckTally& tally,
   return reconnect;
 }
 
-Json AsJson(const AckTally::Counts& counts, const FrameSource& source, std::uint64_t reconnects,
-            double seconds) {
-  Json json = {{"frames", counts.answered},
-               {"applied", counts.answered - counts.refused},
-               {"refused", counts.refused},
-               {"repeated", counts.repeated},
-               {"reconnects", reconnects},
-               {"lost", counts.lost},
-               {"late", counts.late},
-               {"points", counts.points},
-               {"version", counts.last.version},
-               {"stamp_ns", ToNanoseconds(counts.last.stamp)},
-               {"origin_m", ToJson(source.origin_m)},
-               {"elapsed_s", seconds},
-               {"left_out", ToJson(*source.left_out)}};
-  json["reports"] = counts.objects.AsJson();
-  if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
-  return json;
-}
-
-void PrintText(std::ostream& out, const AckTally::Counts& counts) {
-  out << "sent " << Plural(counts.answered, "frame");
-  if (counts.refused > 0) out << " (" << counts.refused << " refused)";
-  out << ", " << Plural(counts.points, "point");
-  if (counts.last.version > 0) {
-    out << "; scene version " << counts.last.version << ", newest stamp "
-        << Seconds(counts.last.stamp);
-  }
-  out << "\n";
-  if (counts.late > 0) {
-    out << Plural(counts.late, "frame")
-        << " of a sensor arrived after newer ones of another, by up to "
-        << ToSeconds(counts.max_late_by) << " s, and " << (counts.late == 1 ? "was" : "were")
-        << " applied\n";
-  }
-  if (counts.repeated > 0) {
-    out << Plural(counts.repeated, "frame")
-        << " had been sent before and changed nothing ('clearway reset' starts over)\n";
-  }
-  for (const std::string& line : counts.objects.Lines()) out << line << "\n";
-}
-
 absl::Status Stopped(const Unread& unread, const FrameSource& source,
                      const AckTally::Counts& counts) {
   return InContext(
@@ -212,9 +150,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
 
   if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
-    Print(terminal.out, AsJson(counts, *source, reconnects, progress.state().elapsed_s));
+    Print(terminal.out, SummaryJson(counts, *source, reconnects, progress.state().elapsed_s));
   } else {
-    PrintText(terminal.out, counts);
+    PrintSummary(terminal.out, counts);
   }
   if (counts.refused > 0) {
     return InContext(absl::StrCat("frame ", counts.first_refused_sequence, " of ",

@@ -94,7 +94,8 @@ absl::StatusOr<Sequence> SimulatedSequence(const std::string& scenario) {
     const Crossing crossing = CrossingOf(task, simulation->StampOf(task.planning_frame));
     sequence.stops.push_back(
         {task.planning_frame,
-         {{absl::StrCat(task.name, ", before ", NameOf(sequence.object_names, task.blocker)),
+         {{absl::StrCat(task.name, ", with ", NameOf(sequence.object_names, task.blocker),
+                        " in the way"),
            task.blocker,
            {[crossing] { return crossing; }}}}});
   }

@@ -118,8 +118,7 @@ std::string WhyRefused(long error, const ServerAddress& address, const std::stri
              "this machine's date";
     case X509_V_ERR_CERT_NOT_YET_VALID:
       return "the server's certificate, or one that signed it, is not valid yet; check this "
-             "machine's "
-             "date";
+             "machine's date";
     case X509_V_ERR_DEPTH_ZERO_SELF_SIGNED_CERT:
     case X509_V_ERR_SELF_SIGNED_CERT_IN_CHAIN:
     case X509_V_ERR_UNABLE_TO_GET_ISSUER_CERT:
@@ -157,8 +156,8 @@ std::string DiagnoseTls(const ServerAddress& address, const std::string& roots_f
   constexpr unsigned char kHttp2[] = {2, 'h', '2'};  // what gRPC speaks
   SSL_set_alpn_protos(ssl.get(), kHttp2, sizeof kHttp2);
   if (with_tls && address.socket_path.empty()) ExpectHost(ssl.get(), address.host);
-  const bool shaken =
-      Shake(ssl.get(), socket);  // whoever signed, for the result is asked for below
+  // OpenSSL shakes hands with whoever signed; SSL_get_verify_result says whether it may be trusted.
+  const bool shaken = Shake(ssl.get(), socket);
   const int reason = ERR_GET_REASON(ERR_peek_last_error());
   ERR_clear_error();
   if (!with_tls) {

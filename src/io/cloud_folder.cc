@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "io/cloud_names.h"
 #include "io/cloud_points.h"
+#include "io/cloud_poses.h"
 #include "io/lidar_frames.h"
 #include "io/pose_table.h"
-#include "io/tum_tables.h"
 
 namespace clearway {
 namespace {
@@ -113,115 +111,7 @@ absl::Status Fill(const Path& path, const std::string& label_field, Frame& frame
   return CheckInSensorFrame(path, frame.points_S);
 }
 
-// The clouds that become frames.
-struct Posed {
-  std::map<int, Path> clouds;  // by the frame's number
-  std::vector<RecordedPose> poses;
-  std::string how;  // clouds got their poses
-  std::size_t without_pose = 0;
-};
-
-std::string NoPose(const Path& cloud, const Path& table_path) {
-  return absl::StrCat(cloud.string(), ": no usable pose in ", table_path.filename().string());
-}
-
-Posed PosedByStamps(const NamedClouds& named, const PoseTable& table, const Path& table_path,
-                    LeftOut& left_out) {
-  TumTrack track;
-  const bool timed = !table.times_path.empty();
-  for (const TablePose& row : table.rows) {
-    track.push_back({row.pose.stamp, row.pose.T_W_S, timed ? row.stamp_line : row.line});
-  }
-  SortByStamp(timed ? table.times_path : table_path, track, left_out);
-  Posed posed;
-  posed.how = "at the stamps that name the clouds";
-  for (std::size_t i = 0; i < named.clouds.size(); ++i) {
-    const auto pose = PoseAt(track, named.clouds[i].stamp);
-    if (!pose) {
-      ++posed.without_pose;
-      left_out.AddFrame(NoPose(named.clouds[i].path, table_path));
-      continue;
-    }
-    const int frame = static_cast<int>(i);
-    posed.clouds[frame] = named.clouds[i].path;
-    posed.poses.push_back({frame, named.clouds[i].stamp, *pose});
-  }
-  return posed;
-}
-
-absl::StatusOr<Posed> PosedByRows(const NamedClouds& named, const PoseTable& table,
-                                  const Path& table_path, const std::string& folder,
-                                  LeftOut& left_out) {
-  const auto rows = RowsOf(named, table.row_count, folder);
-  if (!rows.ok()) return rows.status();
-  std::map<int, Path> of_rows;
-  for (std::size_t i = 0; i < rows->of_clouds.size(); ++i) {
-    const std::optional<std::size_t> row = rows->of_clouds[i];
-    if (row) of_rows[static_cast<int>(*row)] = named.clouds[i].path;
-  }
-  std::vector<TablePose> used = table.rows;
-  std::erase_if(used, [&](const TablePose& row) { return !of_rows.contains(row.pose.frame); });
-  Posed posed;
-  posed.how = rows->by_number ? "of the rows that number the clouds" : "in the clouds' order";
-  posed.poses = InOrder(table_path, std::move(used), left_out, table.times_path);
-  for (const RecordedPose& pose : posed.poses) {
-    posed.clouds[pose.frame] = std::move(of_rows.at(pose.frame));
-  }
-  std::set<Path> with_pose;
-  for (const auto& [frame, path] : posed.clouds) with_pose.insert(path);
-  for (const NamedCloud& cloud : named.clouds) {
-    if (with_pose.contains(cloud.path)) continue;
-    ++posed.without_pose;
-    left_out.AddFrame(NoPose(cloud.path, table_path));
-  }
-  return posed;
-}
-
-absl::StatusOr<Posed> Associate(const NamedClouds& named, const PoseTable& table,
-                                const Path& table_path, const std::string& folder,
-                                LeftOut& left_out) {
-  if (named.naming != CloudNaming::kStamps) {
-    return PosedByRows(named, table, table_path, folder, left_out);
-  }
-  if (table.stamped) return PosedByStamps(named, table, table_path, left_out);
-  if (named.clouds.size() == table.row_count) {
-    NamedClouds in_order = named;
-    in_order.naming = CloudNaming::kOther;
-    return PosedByRows(in_order, table, table_path, folder, left_out);
-  }
-  return absl::InvalidArgumentError(
-      absl::StrCat(folder, ": ", named.clouds.size(), " clouds are named by their stamps, but the ",
-                   table.row_count, " poses of ", table_path.string(), " have none"));
-}
-
-std::string SpanText(Time first, Time last) {
-  return absl::StrFormat("from %.2f to %.2f s", ToSeconds(first - Time()),
-                         ToSeconds(last - Time()));
-}
-
-// Says how the names were read: they may be of another kind.
-absl::Status NoPoses(const Path& folder, const NamedClouds& named, const PoseTable& table,
-                     const Path& table_path) {
-  std::string text = absl::StrCat(folder.string(), ": none of ", named.clouds.size(),
-                                  " clouds has a pose in ", table_path.string());
-  if (named.naming == CloudNaming::kStamps && table.stamped && !table.rows.empty()) {
-    const auto [first, last] = std::ranges::minmax_element(
-        table.rows, {}, [](const TablePose& row) { return row.pose.stamp; });
-    absl::StrAppend(&text, "; their names were read as stamps ",
-                    SpanText(named.clouds.front().stamp, named.clouds.back().stamp),
-                    ", the table's stamps are ", SpanText(first->pose.stamp, last->pose.stamp),
-                    ". Names that number the table's rows (0.pcd, 1.pcd, ...) need no stamps");
-  } else if (named.naming == CloudNaming::kNumbers) {
-    absl::StrAppend(&text, "; their names were read as numbers of its ", table.row_count,
-                    " rows, counted from 0, from ", named.clouds.front().number, " to ",
-                    named.clouds.back().number,
-                    ". Stamps have a decimal point or 10, 13, 16 or 19 "
-                    "digits");
-  }
-  return absl::InvalidArgumentError(text);
-}
-
-std::string Described(const std::string& name, const Posed& posed, const Path& table_path,
+std::string Described(const std::string& name, const PosedClouds& posed, const Path& table_path,
                       const CloudPoints& first, const std::string& label_field) {
   std::string text =
       absl::StrCat(name, "; poses of ", table_path.filename().string(), " ", posed.how);
@@ -257,9 +147,8 @@ absl::StatusOr<LidarFolder> OpenCloudFolder(const Path& given, const CloudFolder
   if (!table.ok()) return table.status();
   const auto named = NameClouds(CloudsIn(folders.front()));
   if (!named.ok()) return named.status();
-  auto posed = Associate(*named, *table, *table_path, folder.string(), *scans.left_out);
+  auto posed = PoseClouds(*named, *table, *table_path, folder, *scans.left_out);
   if (!posed.ok()) return posed.status();
-  if (posed->poses.empty()) return NoPoses(folder, *named, *table, *table_path);
   const auto first = ReadCloud(posed->clouds.begin()->second, options.label_field);
   if (!first.ok()) return first.status();
 

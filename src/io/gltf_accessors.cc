@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
-#include "io/mesh_lines.h"
 
 namespace clearway {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::uint64_t kMaxWhole = 0xffffffff;
 
 std::uint64_t BytesOf(std::uint64_t component_type) {
   return component_type == 5121 ? 1 : component_type == 5123 ? 2 : 4;
@@ -41,81 +37,6 @@ std::string PlaceOf(const char* list, std::uint64_t index) {
 }
 
 }  // namespace
-
-const Json& GltfMembers::Get(const Json& object, const char* key) {
-  static const Json* const null = new Json();
-  const auto member = object.find(key);
-  return member == object.end() ? *null : *member;
-}
-
-const Json& GltfMembers::List(const Json& object, const std::string& place, const char* key) const {
-  static const Json* const empty = new Json(Json::array());
-  const auto member = object.find(key);
-  if (member == object.end()) return *empty;
-  if (member->is_array()) return *member;
-  error_.Set(place, absl::StrCat(key, " must be a list"));
-  return *empty;
-}
-
-const Json& GltfMembers::Object(const Json& object, const std::string& place,
-                                const char* key) const {
-  static const Json* const empty = new Json(Json::object());
-  const auto member = object.find(key);
-  if (member == object.end()) return *empty;
-  if (member->is_object()) return *member;
-  error_.Set(place, absl::StrCat(key, " must be an object"));
-  return *empty;
-}
-
-std::uint64_t GltfMembers::Whole(const Json& object, const std::string& place,
-                                 const char* key) const {
-  if (!object.contains(key)) error_.Set(place, absl::StrCat(key, " is missing"));
-  return WholeOr(object, place, key, 0);
-}
-
-std::uint64_t GltfMembers::WholeOr(const Json& object, const std::string& place, const char* key,
-                                   std::uint64_t otherwise) const {
-  const auto member = object.find(key);
-  if (member == object.end()) return otherwise;
-  if (member->is_number_unsigned() && member->get<std::uint64_t>() <= kMaxWhole) {
-    return member->get<std::uint64_t>();
-  }
-  error_.Set(place, absl::StrCat(key, " is ", Quoted(member->dump()),
-                                 "; it must be a whole number from 0 to ", kMaxWhole));
-  return 0;
-}
-
-std::vector<double> GltfMembers::Numbers(const Json& object, const std::string& place,
-                                         const char* key, std::size_t count) const {
-  std::vector<double> numbers;
-  for (const Json& number : List(object, place, key)) {
-    if (number.is_number() && std::isfinite(number.get<double>())) {
-      numbers.push_back(number.get<double>());
-    }
-  }
-  if (numbers.size() == count && List(object, place, key).size() == count) return numbers;
-  error_.Set(place, absl::StrCat(key, " must be ", count, " numbers"));
-  return std::vector<double>(count);
-}
-
-std::uint64_t GltfMembers::Index(const Json& number, const std::string& place,
-                                 const char* list) const {
-  const std::uint64_t count = List(file_, "", list).size();
-  if (number.is_number_unsigned() && number.get<std::uint64_t>() < count) {
-    return number.get<std::uint64_t>();
-  }
-  error_.Set(place, absl::StrCat("names ", list, "[", number.dump().substr(0, 40), "] of ", count,
-                                 " (the first is 0)"));
-  return 0;
-}
-
-const Json& GltfMembers::Element(std::uint64_t index, const char* list) const {
-  static const Json* const empty = new Json(Json::object());
-  const Json& elements = List(file_, "", list);
-  if (index < elements.size() && elements[index].is_object()) return elements[index];
-  error_.Set(PlaceOf(list, index), "must be an object");
-  return *empty;
-}
 
 const GltfAccessors::Kind& GltfAccessors::Positions() {
   static const Kind* const kind = new Kind{"VEC3", {5126}, 3, true};

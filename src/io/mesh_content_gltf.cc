@@ -1,6 +1,5 @@
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "io/first_error.h"
 #include "io/gltf_accessors.h"
 #include "io/gltf_file.h"
+#include "io/gltf_members.h"
 #include "io/mesh_content.h"
 #include "io/mesh_lines.h"
 
@@ -19,7 +19,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kMaxNodeDepth = 1000;
-constexpr double kMaxNormError = 1e-3;  // of a rotation's quaternion
 
 // What these change is seen, not touched.
 bool IsAboutLooks(const std::string& extension) {
@@ -93,7 +92,7 @@ class Content {
     if (nodes_seen_[n]) error_.Set(place, "the scene has it twice");
     nodes_seen_[n] = true;
     const Json& node = members_.Element(n, "nodes");
-    const Eigen::Matrix4d T_root_node = T_root_parent * TransformOf(node, place);
+    const Eigen::Matrix4d T_root_node = T_root_parent * members_.Transform(node, place);
     if (members_.Object(node, place, "extensions").contains("EXT_mesh_gpu_instancing")) {
       error_.Set(place, "EXT_mesh_gpu_instancing is not supported: export without it");
     }
@@ -101,35 +100,6 @@ class Content {
     for (const Json& child : members_.List(node, place, "children")) {
       AddNode(members_.Index(child, place, "nodes"), T_root_node, depth + 1);
     }
-  }
-
-  Eigen::Matrix4d TransformOf(const Json& node, const std::string& place) {
-    if (node.contains("matrix")) {
-      const Eigen::Matrix4d matrix(members_.Numbers(node, place, "matrix", 16).data());
-      if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1) || node.contains("translation") ||
-          node.contains("rotation") || node.contains("scale")) {
-        error_.Set(place,
-                   "its matrix must be alone and end, row by row, with 0, 0, 0, 1 "
-                   "(glTF lists columns)");
-      }
-      return matrix;
-    }
-    Eigen::Affine3d T_parent_node = Eigen::Affine3d::Identity();
-    if (node.contains("translation")) {
-      T_parent_node.translate(
-          Eigen::Vector3d(members_.Numbers(node, place, "translation", 3).data()));
-    }
-    if (node.contains("rotation")) {
-      const Eigen::Quaterniond rotation(members_.Numbers(node, place, "rotation", 4).data());
-      if (!(std::abs(rotation.norm() - 1) <= kMaxNormError)) {
-        error_.Set(place, "its rotation is not a unit quaternion");
-      }
-      T_parent_node.rotate(rotation.normalized());
-    }
-    if (node.contains("scale")) {
-      T_parent_node.scale(Eigen::Vector3d(members_.Numbers(node, place, "scale", 3).data()));
-    }
-    return T_parent_node.matrix();
   }
 
   void AddMesh(const Json& node, const std::string& place, const Eigen::Matrix4d& T_root_node) {

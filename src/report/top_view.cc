@@ -123,11 +123,15 @@ class TopViewPainter {
     return view_.ToPixels(report::OutlineOf(*placed.object->solid, placed.T_W_O));
   }
 
+  static bool IsMoving(const SceneAtTime::Placed& placed) {
+    return placed.object->SpeedMps() >= kMovingMps;
+  }
+
   void PaintObjects() {
     for (const SceneAtTime::Placed& placed : now_.objects()) {
       const Polygon outline = OutlineOf(placed);
-      const bool moving = placed.object->SpeedMps() >= kMovingMps;
-      canvas_.Fill(outline, (moving ? palette::kMoving : palette::kResting).WithAlpha(0.9));
+      const Color color = IsMoving(placed) ? palette::kMoving : palette::kResting;
+      canvas_.Fill(outline, color.WithAlpha(0.9));
       canvas_.Outline(outline, {palette::kInk, 1.2});
     }
   }
@@ -139,7 +143,7 @@ class TopViewPainter {
       const Color color = times_.At(time).WithAlpha(0.95 - 0.35 * fraction);
       const SceneAtTime then(scene_, time);
       for (const SceneAtTime::Placed& placed : then.objects()) {
-        if (placed.object->SpeedMps() < kMovingMps) continue;
+        if (!IsMoving(placed)) continue;
         const Polygon outline = OutlineOf(placed);
         canvas_.Fill(outline, color.WithAlpha(0.08));
         canvas_.Outline(outline, {color, 2.2});
@@ -184,7 +188,9 @@ class TopViewPainter {
     }
     legend.Heading("Moving objects");
     legend.Swatch(palette::kMoving, {palette::kInk, 1.2}, "now");
-    legend.Swatch(palette::kResting, {palette::kInk, 1.2}, "labelled, at rest");
+    if (!std::ranges::all_of(now_.objects(), IsMoving)) {
+      legend.Swatch(palette::kResting, {palette::kInk, 1.2}, "labelled, at rest");
+    }
     const Color later = report::TimeColor(0.6);
     if (!options_.predicted_after.empty()) {
       legend.Swatch(later.WithAlpha(0.08), {later, 2.2}, "predicted, at its time");

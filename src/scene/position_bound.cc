@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/object_motion.h"
 
@@ -14,6 +15,7 @@ constexpr double kFitted_s = 0.1;
 constexpr double kShortest_s = 0.02;
 constexpr double kFast_mps = 2.5;
 constexpr double kMaxCentripetal_mps2 = 10;
+constexpr double kNear_s = 0.5, kAll_s = std::numeric_limits<double>::infinity();
 
 // What is usual, before the object's own misses count.
 PositionBound Scaled(const PositionBound& bound, double by) {
@@ -34,24 +36,30 @@ double Accel_mps2(const PastMisses& misses, const Twist& velocity_O, const Bound
          model.turn_gain * centripetal_mps2;
 }
 
-// e(h).
-PositionBound Expected(const PastMisses& misses, const Twist& velocity_O, bool of_last_motion,
-                       const BoundModel& model) {
+// e(h) = n(h) + c(h).
+struct Expected {
+  PositionBound noise, choice;
+
+  double At(double ahead_s) const { return noise.At(ahead_s) + choice.At(ahead_s); }
+};
+
+Expected ExpectedOf(const PastMisses& misses, const Twist& velocity_O, bool of_last_motion,
+                    const BoundModel& model) {
   const double jitter_m = Jitter_m(misses, model);
   const double given_s = misses.interval_s > 0 ? misses.interval_s : kFitted_s;
   const double interval_s = std::clamp(given_s, of_last_motion ? kShortest_s : kFitted_s, 1.0);
   const double accel_mps2 = Accel_mps2(misses, velocity_O, model);
-  return {model.jitter_gain * jitter_m,
-          model.jitter_rate_gain * jitter_m / interval_s + model.response_s * accel_mps2,
-          accel_mps2};
+  return {{model.jitter_gain * jitter_m, model.jitter_rate_gain * jitter_m / interval_s, 0},
+          {0, model.response_s * accel_mps2, accel_mps2}};
 }
 
-// q.
-double Unpredictability(const PastMisses& misses, const PositionBound& expected, double prior_count,
-                        const BoundModel& model) {
+// q or p, by the misses up to that long ahead.
+double Unpredictability(const PastMisses& misses, const Expected& expected, double prior_count,
+                        double up_to_s, const BoundModel& model) {
   constexpr double kRounding_m2 = 1e-8;
   double count = prior_count, sum = prior_count;
   const auto add = [&](const Misses& of, double weight) {
+    if (of.ahead_s > up_to_s) return;
     const double expected_m = expected.At(of.ahead_s);
     count += weight * of.count;
     sum += weight * of.sum_m2 / (expected_m * expected_m + kRounding_m2);
@@ -61,20 +69,33 @@ double Unpredictability(const PastMisses& misses, const PositionBound& expected,
   return std::sqrt(sum / count);
 }
 
+PositionBound Sum(const PositionBound& a, const PositionBound& b) {
+  return {a.at_m + b.at_m, a.speed_mps + b.speed_mps, a.accel_mps2 + b.accel_mps2};
+}
+
+PositionBound BoundInMotion(const PastMisses& misses, const Expected& expected,
+                            const BoundModel& model) {
+  const double q = Unpredictability(misses, expected, model.prior_count, kAll_s, model);
+  const double near = Unpredictability(misses, expected, model.near_prior_count, kNear_s, model);
+  return Sum(Scaled(expected.noise, model.factor * std::max(q, near)),
+             Scaled(expected.choice, model.factor * q));
+}
+
+PositionBound BoundAtRest(const PastMisses& misses, const BoundModel& model) {
+  const Expected expected{
+      {model.rest_jitter_gain * Jitter_m(misses, model), model.rest_drift_mps, 0}, {}};
+  const double q = Unpredictability(misses, expected, model.rest_prior_count, kAll_s, model);
+  return Scaled(expected.noise, model.rest_factor * q);
+}
+
 }  // namespace
 
 PositionBound BoundBy(const PastMisses& misses, bool has_motion, const Twist& velocity_O,
                       bool of_last_motion, const BoundModel& model) {
   if (!(velocity_O == Twist{})) {
-    const PositionBound expected = Expected(misses, velocity_O, of_last_motion, model);
-    const double q = Unpredictability(misses, expected, model.prior_count, model);
-    return Scaled(expected, model.factor * q);
+    return BoundInMotion(misses, ExpectedOf(misses, velocity_O, of_last_motion, model), model);
   }
-  if (!has_motion) return {0, model.unknown_mps, 0};
-  const PositionBound expected{model.rest_jitter_gain * Jitter_m(misses, model),
-                               model.rest_drift_mps, 0};
-  const double q = Unpredictability(misses, expected, model.rest_prior_count, model);
-  return Scaled(expected, model.rest_factor * q);
+  return has_motion ? BoundAtRest(misses, model) : PositionBound{0, model.unknown_mps, 0};
 }
 
 PositionBound BoundOf(std::span<const StampedPose> track, Time since, const Twist& velocity_O,

@@ -10,20 +10,26 @@
 namespace clearway {
 
 // The model of the bound. Of an object that moves, a prediction for h seconds ahead is expected to
-// be off by about
+// be off by about e(h) = n(h) + c(h). The noise of its poses makes
 //
-//   e(h) = jitter_gain J + (jitter_rate_gain J / D + response_s a) h + a h^2 / 2.
+//   n(h) = jitter_gain J + (jitter_rate_gain J / D) h,
+//
+// and what it may choose to do makes
+//
+//   c(h) = response_s a h + a h^2 / 2.
 //
 // J is the noise of its poses (unknown_jitter_m until three of them are known), D the time between
 // the poses that the velocity comes from, and a the acceleration that an object of its speed v and
 // turn rate w may choose: from rest_accel_mps2 up by speed_accel_mps2 at kFast_mps, and turn_gain
-// times the centripetal acceleration v w. Of an object at rest it is rest_jitter_gain J +
+// times the centripetal acceleration v w. Of an object at rest e(h) is rest_jitter_gain J +
 // rest_drift_mps h.
 //
-// The bound is factor q e(h). q tells how predictable this object is: q^2 is the mean of
-// m^2 / e(h)^2 over its own past predictions, which missed by m, and of prior_count times 1. So the
-// bound is calibrated in the way of conformal prediction: by the errors of the same predictor on
-// the same object.
+// The bound is factor (p n(h) + q c(h)), at rest factor q e(h). q tells how predictable this object
+// is: q^2 is the mean of m^2 / e(h)^2 over its own past predictions, which missed by m, and of
+// prior_count times 1. So the bound is calibrated in the way of conformal prediction: by the errors
+// of the same predictor on the same object. p is the same for predictions of up to half a second
+// alone, with near_prior_count, and at least q: later misses, small beside c(h), would hide that
+// the poses are noisier than J tells.
 //
 // All numbers but rest_accel_mps2 were fitted by quantile regression (R. Koenker, G. Bassett,
 // "Regression Quantiles", Econometrica 46, 1978) to recordings of road users;
@@ -31,18 +37,18 @@ namespace clearway {
 // left out. rest_accel_mps2 is set by hand: only one recording has slow objects with smooth tracks,
 // so a fit without it would trust them blindly.
 struct BoundModel {
-  double factor = 1.71;
-  double prior_count = 13.2;
-  double late_weight = 3.38, soon_weight = 0.56;  // of one past prediction (PastMisses)
+  double factor = 1.69;
+  double prior_count = 13.8, near_prior_count = 7.5;
+  double late_weight = 3.7, soon_weight = 0.53;  // of one past prediction (PastMisses)
 
-  double unknown_jitter_m = 0.04;
-  double jitter_gain = 0.22, jitter_rate_gain = 0.29;
-  double response_s = 0.71;
-  double rest_accel_mps2 = 0.05, speed_accel_mps2 = 1.37, turn_gain = 0.38;
+  double unknown_jitter_m = 0.036;
+  double jitter_gain = 0.34, jitter_rate_gain = 0.38;
+  double response_s = 0.67;
+  double rest_accel_mps2 = 0.05, speed_accel_mps2 = 1.4, turn_gain = 0.39;
 
   double rest_factor = 0.92;
-  double rest_prior_count = 0.36;
-  double rest_jitter_gain = 12.7, rest_drift_mps = 3.7;
+  double rest_prior_count = 0.34;
+  double rest_jitter_gain = 12.3, rest_drift_mps = 4.0;
 
   // Speed of an object of which one pose is known and no motion.
   double unknown_mps = 15.5;

@@ -30,12 +30,16 @@ struct Sample {
   Eigen::Vector3d center_O;  // from where the centre is
 };
 
-// The newest first.
+// The newest first, at least kShortestStep apart: of sensors that are triggered together, one
+// counts.
 std::vector<Sample> SamplesOf(std::span<const StampedPose> track, const Eigen::Vector3d& center_O) {
   const StampedPose& last = track.back();
   const Pose T_O_W = Inverse(last.T_W_O);
   std::vector<Sample> samples;
+  Time latest = last.stamp;  // that the next may have
   for (std::size_t i = track.size(); i-- > 0;) {
+    if (track[i].stamp > latest) continue;
+    latest = track[i].stamp - kShortestStep;
     const double at_s = ToSeconds(track[i].stamp - last.stamp);
     const Pose seen = T_O_W * track[i].T_W_O;
     const Eigen::Vector3d turn_O = Log(seen).angular;

@@ -81,7 +81,7 @@ void ExpectRightAnswers(int solids, unsigned seed) {
 
 TEST(RandomSolidsTest, NoneIsFreeWithAnObstacleInside) { ExpectRightAnswers(1'000, 55); }
 
-// Takes minutes: run it with --gtest_also_run_disabled_tests.
+// Takes minutes: `./dev long` runs it.
 TEST(RandomSolidsTest, DISABLED_NoneOfTenThousandIsFree) { ExpectRightAnswers(10'000, 56); }
 
 }  // namespace

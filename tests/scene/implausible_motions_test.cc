@@ -92,7 +92,9 @@ TEST_F(ImplausibleMotions, WhatIsBeyondTheLimitIsLeftOutAlone) {
       Frame frame = Showing(0.1 * k, x_m);
       if (posed && x_m <= 100) frame.poses.push_back({2, Pose::Translation(x_m, 3, 1)});
       const FrameReport report = Applied(frame);
-      if (k == 11) EXPECT_EQ(report.points_out_of_bounds, frame.points_S.size() - 1);
+      if (k == 11) {
+        EXPECT_EQ(report.points_out_of_bounds, frame.points_S.size() - 1);
+      }
     }
     const ScenePtr scene = dut_.Publish();
     EXPECT_EQ(scene->stamp, At(1.1));

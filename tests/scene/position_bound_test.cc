@@ -206,19 +206,42 @@ TEST(BoundModel, GrowsByJitterVelocityAndAcceleration) {
   EXPECT_NEAR(dut.accel_mps2, model.factor * accel_mps2, 1e-9);
 }
 
+// The root mean square of the misses, in expected ones, and of the prior's 1.
+double Unpredictability(double prior_count, double weight, double missed) {
+  return std::sqrt((prior_count + weight * missed * missed) / (prior_count + weight));
+}
+
+void Miss(double expected_m, double missed, Misses& misses) {
+  for (int i = 0; i < 5; ++i) misses.Add(std::pow(missed * expected_m, 2));
+}
+
 TEST(BoundModel, IsScaledByTheObjectsOwnMisses) {
   const BoundModel model;
   const PositionBound before = BoundBy(Jittery(), true, kSlow, true);
   for (const double missed : {0.0, 0.5, 3.0}) {
     PastMisses misses = Jittery();
-    const double expected_m = before.At(1) / model.factor;
-    for (int i = 0; i < 5; ++i) misses.late[1].Add(std::pow(missed * expected_m, 2));
-    const double weight = 5 * model.late_weight;
-    const double q =
-        std::sqrt((model.prior_count + weight * missed * missed) / (model.prior_count + weight));
+    Miss(before.At(1) / model.factor, missed, misses.late[1]);
+    const double q = Unpredictability(model.prior_count, 5 * model.late_weight, missed);
     const PositionBound dut = BoundBy(misses, true, kSlow, true);
-    EXPECT_NEAR(dut.At(2), q * before.At(2), 1e-5 * before.At(2)) << missed;
+    EXPECT_NEAR(dut.accel_mps2, q * before.accel_mps2, 1e-5) << missed;
+    // Nothing is known of half a second ahead, where noise would show.
+    EXPECT_NEAR(dut.at_m, std::max(q, 1.0) * before.at_m, 1e-5) << missed;
   }
+}
+
+TEST(BoundModel, SmallMissesFarAheadHideNoNoise) {
+  const BoundModel model;
+  const PositionBound before = BoundBy(Jittery(), true, kSlow, true);
+  PastMisses misses = Jittery();
+  Miss(before.At(0.5) / model.factor, 3, misses.late[0]);
+  Miss(before.At(3) / model.factor, 0, misses.late[3]);
+  const double weight = 5 * model.late_weight;
+  const double near = Unpredictability(model.near_prior_count, weight, 3);
+  const double all = std::sqrt((model.prior_count + 9 * weight) / (model.prior_count + 2 * weight));
+  const PositionBound dut = BoundBy(misses, true, kSlow, true);
+  EXPECT_GT(near, 1.2 * all);
+  EXPECT_NEAR(dut.at_m, near * before.at_m, 1e-5);
+  EXPECT_NEAR(dut.accel_mps2, all * before.accel_mps2, 1e-5);
 }
 
 TEST(BoundModel, IsWiderForWhatTurns) {

@@ -58,6 +58,32 @@ TEST(TrackMotion, OfTwoPosesIsTheLastMotion) {
   }
 }
 
+// Frames of sensors that are triggered together are microseconds apart, and their poses have noise.
+TEST(TrackMotion, PosesAtOnceTellNoVelocity) {
+  const auto noisy = [](double t_s, double off) {
+    return StampedPose{At(t_s),
+                       {Eigen::Quaterniond(Eigen::AngleAxisd(off, Eigen::Vector3d::UnitZ())),
+                        {2 * t_s + off, 0, 0}}};
+  };
+  std::vector<StampedPose> track{noisy(5, 0), noisy(5.00001, 0.01)};
+  EXPECT_EQ(VelocityOfTrack(track, {1, 0, 0}), Twist{});
+  track.push_back(noisy(5.00002, -0.01));
+  EXPECT_EQ(VelocityOfTrack(track, {1, 0, 0}), Twist{});
+  // With earlier poses, of long ago and of just now.
+  for (const double before_s : {30.0, 1.0, 0.1}) {
+    std::vector<StampedPose> longer = track;
+    longer.insert(longer.begin(), noisy(5 - before_s, 0));
+    const Twist dut = VelocityOfTrack(longer, {1, 0, 0});
+    EXPECT_LT((dut.linear - Eigen::Vector3d(2, 0, 0)).norm(), 0.5) << before_s;
+    EXPECT_LT(dut.angular.norm(), 0.5) << before_s;
+  }
+}
+
+TEST(TrackMotion, OfTwoPosesTooCloseInTimeIsNone) {
+  const std::vector<StampedPose> track{{At(1), Pose{}}, {At(1.004), Pose{{1, 0, 0, 0}, {1, 0, 0}}}};
+  EXPECT_EQ(VelocityOfTrack(track, {0, 0, 0}), Twist{});
+}
+
 // However irregular it is, a scene must never hold what is no number.
 TEST(TrackMotion, OfAnyTrackIsANumber) {
   Random random(5);
