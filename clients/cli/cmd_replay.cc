@@ -67,7 +67,8 @@ absl::Status SendAll(const FrameSource& source, FrameRange range, const Flags& f
       }
       unread.stopped = !flags.keep_going;
       if (unread.stopped) return absl::OkStatus();
-      source.left_out->AddFrame(absl::StrCat("frame ", i, ": ", frame.status().message()));
+      source.left_out->AddFrame(
+          absl::StrCat(frame.status().message(), " (frame ", i, ", counted from 0)"));
       continue;
     }
     frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
@@ -106,11 +107,11 @@ ReconnectOptions Reconnect(const Flags& flags, AckTally& tally,
 
 absl::Status Stopped(const Unread& unread, const FrameSource& source,
                      const AckTally::Counts& counts) {
-  return InContext(
-      absl::StrCat("stopped at frame ", unread.first, " of ", source.frame_count, "; ",
-                   Plural(counts.answered, "frame"), counts.answered == 1 ? " was" : " were",
-                   " sent; --keep-going leaves such frames out"),
-      unread.why);
+  return InContext(absl::StrCat("stopped at frame ", unread.first, " of ", source.frame_count,
+                                " (counted from 0); ", Plural(counts.answered, "frame"),
+                                counts.answered == 1 ? " was" : " were",
+                                " sent; --keep-going leaves such frames out"),
+                   unread.why);
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -145,7 +146,11 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const AckTally::Counts counts = tally.counts();
   progress.Update(counts.answered, counts.points);
   progress.Finish();
-  if (!status.ok()) return status;
+  if (!status.ok()) {
+    return InContext(absl::StrCat("after ", Plural(counts.answered, "frame"), " of ", range->size(),
+                                  " were applied or refused"),
+                     status);
+  }
   if (unread.stopped) return Stopped(unread, *source, counts);
 
   if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
@@ -160,9 +165,10 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
                      counts.first_refusal);
   }
   if (unread.count > 0) {
-    return InContext(absl::StrCat(Plural(unread.count, "frame"),
-                                  " could not be read, the first: frame ", unread.first),
-                     unread.why);
+    return InContext(
+        absl::StrCat(Plural(unread.count, "frame"), " could not be read, the first: frame ",
+                     unread.first, " (counted from 0)"),
+        unread.why);
   }
   if (counts.lost > 0) {
     return absl::DataLossError(absl::StrCat("the server restarted: its scene lacks the first ",

@@ -21,56 +21,58 @@ class Frames {
   Frames(const std::string& spec, const FrameSource& source) : spec_(spec), source_(source) {}
 
   // The first frame not before the bound; frame_count if all are.
-  absl::StatusOr<std::size_t> FirstFrom(const FrameBound& bound) {
+  std::size_t FirstFrom(const FrameBound& bound) {
     if (const auto* frame = std::get_if<std::size_t>(&bound)) return *frame;
     return Bisect([offset = std::get<Duration>(bound)](Duration at) { return at < offset; });
   }
 
   // The number of frames not after the bound; above frame_count if the bound is beyond the last.
-  absl::StatusOr<std::size_t> EndAt(const FrameBound& bound) {
+  std::size_t EndAt(const FrameBound& bound) {
     if (const auto* frame = std::get_if<std::size_t>(&bound)) return *frame + 1;
     const Duration offset = std::get<Duration>(bound);
-    const auto last = TimeOf(source_.frame_count - 1);
-    if (!last.ok()) return last.status();
-    if (offset > *last) return source_.frame_count + 1;
+    if (offset > TimeOf(source_.frame_count - 1)) return source_.frame_count + 1;
     return Bisect([offset](Duration at) { return at <= offset; });
   }
 
   absl::Status Refused(const std::string& why) {
     std::string text = absl::StrCat(why, "; ", spec_, " ends at frame ", source_.frame_count - 1);
-    const auto last = TimeOf(source_.frame_count - 1);
-    if (last.ok()) absl::StrAppend(&text, ", ", Seconds(*last), " after frame 0");
+    const Duration last = TimeOf(source_.frame_count - 1);
+    if (last != kUnread) absl::StrAppend(&text, ", ", Seconds(last), " after frame 0");
     return UsageError(text);
   }
 
  private:
-  absl::StatusOr<Duration> TimeOf(std::size_t k) {
-    if (!first_) {
-      const auto first = source_.read(0);
-      if (!first.ok()) return first.status();
-      first_ = first->stamp;
+  static constexpr Duration kUnread = Duration::max();
+
+  // After the first frame that can be read. Of a frame that cannot be read, that of the next that
+  // can, and kUnread if there is none: what to do about such frames is not for the range to say.
+  Duration TimeOf(std::size_t k) {
+    if (!first_) first_ = StampFrom(0);
+    const std::optional<Time> stamp = StampFrom(k);
+    return stamp && first_ ? *stamp - *first_ : kUnread;
+  }
+
+  std::optional<Time> StampFrom(std::size_t k) {
+    for (; k < source_.frame_count; ++k) {
+      if (const auto frame = source_.read(k); frame.ok()) return frame->stamp;
     }
-    const auto frame = source_.read(k);
-    if (!frame.ok()) return frame.status();
-    return frame->stamp - *first_;
+    return std::nullopt;
   }
 
   // The first frame for which `before` does not hold.
   template <class Before>
-  absl::StatusOr<std::size_t> Bisect(const Before& before) {
+  std::size_t Bisect(const Before& before) {
     std::size_t low = 0, high = source_.frame_count;
     while (low < high) {
       const std::size_t middle = low + (high - low) / 2;
-      const auto at = TimeOf(middle);
-      if (!at.ok()) return at.status();
-      before(*at) ? low = middle + 1 : high = middle;
+      before(TimeOf(middle)) ? low = middle + 1 : high = middle;
     }
     return low;
   }
 
   const std::string& spec_;
   const FrameSource& source_;
-  std::optional<Time> first_;  // stamp of frame 0, once it was read
+  std::optional<Time> first_;  // stamp of the first frame that can be read, once it was
 };
 
 }  // namespace
@@ -104,18 +106,14 @@ absl::StatusOr<FrameRange> FramesIn(const FrameRangeFlags& flags, const std::str
   Frames frames(spec, source);
   FrameRange range{0, source.frame_count};
   if (flags.from) {
-    const auto first = frames.FirstFrom(*flags.from);
-    if (!first.ok()) return first.status();
-    range.first = *first;
+    range.first = frames.FirstFrom(*flags.from);
     if (range.first >= source.frame_count) {
       return frames.Refused(
           absl::StrCat("--from ", Name(*flags.from), " is beyond the last frame"));
     }
   }
   if (flags.to) {
-    const auto end = frames.EndAt(*flags.to);
-    if (!end.ok()) return end.status();
-    range.end = *end;
+    range.end = frames.EndAt(*flags.to);
     if (range.end > source.frame_count) {
       return frames.Refused(absl::StrCat("--to ", Name(*flags.to), " is beyond the last frame"));
     }

@@ -22,7 +22,10 @@ Json SummaryJson(const AckTally::Counts& counts, const FrameSource& source,
                {"elapsed_s", seconds},
                {"left_out", ToJson(*source.left_out)}};
   json["reports"] = counts.objects.AsJson();
-  if (counts.refused > 0) json["first_refusal"] = counts.first_refusal.ToString();
+  if (counts.refused > 0) {
+    json["first_refusal"] = absl::StrCat(absl::StatusCodeToString(counts.first_refusal.code()),
+                                         ": ", counts.first_refusal.message());
+  }
   return json;
 }
 

@@ -1,5 +1,8 @@
 #include "cli/server_flags.h"
 
+#include <string>
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 #include "clearway/client/error_details.h"
 #include "cli/cli.h"
@@ -29,10 +32,12 @@ absl::StatusOr<std::shared_ptr<Connection>> Connect(const ServerFlags& flags) {
   options.tls_root_certificates_file = flags.tls_root_certificates_file;
   auto connection = Connection::Open(flags.address, options);
   const absl::Status& status = connection.status();
-  const std::string message(status.message()), field = "address: ";
-  if (message.starts_with(field)) {
-    return absl::Status(status.code(), absl::StrCat("--server or CLEARWAY_ADDRESS: ",
-                                                    message.substr(field.size())));
+  const std::string message(status.message());
+  for (const auto& [field, flag] :
+       {std::pair<std::string, std::string>{"address: ", "--server or CLEARWAY_ADDRESS: "},
+        {"tls_root_certificates_file: ", "--tls-roots: "}}) {
+    if (!message.starts_with(field)) continue;
+    return absl::Status(status.code(), absl::StrCat(flag, message.substr(field.size())));
   }
   if (DetailsOf(status).reason == "TLS") {
     return absl::Status(status.code(),

@@ -90,7 +90,7 @@ CloudNaming Read(std::vector<NamedCloud>& clouds) {
     numbers &= number.has_value();
     padded &= ending->whole.starts_with('0');
     cloud.stamp = stamp.value_or(Time());
-    cloud.number = number.value_or(0);
+    cloud.number = number.value_or(-1);
   }
   if (stamps && numbers && padded && AreCounts(NumbersOf(clouds))) return CloudNaming::kNumbers;
   return stamps ? CloudNaming::kStamps : numbers ? CloudNaming::kNumbers : CloudNaming::kOther;

@@ -25,8 +25,8 @@ enum class CloudNaming {
 
 struct NamedCloud {
   std::filesystem::path path;
-  std::int64_t number = 0;  // kNumbers
-  Time stamp = Time();      // kStamps
+  std::int64_t number = -1;  // kNumbers, and kStamps if it is whole
+  Time stamp = Time();       // kStamps
 };
 
 struct NamedClouds {

@@ -96,6 +96,11 @@ absl::Status NoPoses(const Path& folder, const NamedClouds& named, const PoseTab
   return absl::InvalidArgumentError(text);
 }
 
+// Whether the clouds' numbers, in ascending order, can be those of rows.
+bool NumberRows(const std::vector<NamedCloud>& clouds, std::size_t rows) {
+  return clouds.front().number >= 0 && clouds.back().number < static_cast<std::int64_t>(rows);
+}
+
 absl::StatusOr<PosedClouds> Associate(const NamedClouds& named, const PoseTable& table,
                                       const Path& table_path, const std::string& folder,
                                       LeftOut& left_out) {
@@ -103,10 +108,12 @@ absl::StatusOr<PosedClouds> Associate(const NamedClouds& named, const PoseTable&
     return PosedByRows(named, table, table_path, folder, left_out);
   }
   if (table.stamped) return PosedByStamps(named, table, table_path, left_out);
-  if (named.clouds.size() == table.row_count) {
-    NamedClouds in_order = named;
-    in_order.naming = CloudNaming::kOther;
-    return PosedByRows(in_order, table, table_path, folder, left_out);
+  // Without stamps in the table, the names are no stamps either.
+  NamedClouds unstamped = named;
+  const bool numbers = NumberRows(named.clouds, table.row_count);
+  unstamped.naming = numbers ? CloudNaming::kNumbers : CloudNaming::kOther;
+  if (numbers || named.clouds.size() == table.row_count) {
+    return PosedByRows(unstamped, table, table_path, folder, left_out);
   }
   return absl::InvalidArgumentError(
       absl::StrCat(folder, ": ", named.clouds.size(), " clouds are named by their stamps, but the ",

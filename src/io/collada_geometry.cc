@@ -5,7 +5,9 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "absl/strings/str_join.h"
 #include "clearway/base/parse_number.h"
 #include "io/mesh_lines.h"
 
@@ -39,13 +41,17 @@ class GeometryReader {
 
  private:
   void ReadVertices() {
-    const Node vertices = mesh_.child("vertices");
-    const Node input = vertices.find_child_by_attribute("input", "semantic", "POSITION");
-    if (!input || vertices.next_sibling("vertices")) {
-      return text_.Refuse(mesh_, "it must have one <vertices> with an input POSITION");
+    const Node vertices = text_.Only(mesh_, "vertices");
+    const auto is_position = [](Node input) {
+      return std::string_view(input.attribute("semantic").value()) == "POSITION";
+    };
+    const auto inputs = vertices.children("input");
+    const auto input = std::ranges::find_if(inputs, is_position);
+    if (std::ranges::count_if(inputs, is_position) != 1) {
+      return text_.Refuse(mesh_, "its <vertices> must have one input POSITION");
     }
-    const Node source = text_.Referred(input, "source", "source");
-    const Node accessor = source.child("technique_common").child("accessor");
+    const Node source = text_.Referred(*input, "source", "source");
+    const Node accessor = text_.Only(text_.Only(source, "technique_common"), "accessor");
     if (!accessor) return text_.Refuse(source, "it has no accessor");
     const Node array = text_.Referred(accessor, "source", "float_array");
     const std::vector<double> numbers = text_.Numbers(array, 0);
@@ -56,24 +62,39 @@ class GeometryReader {
     const std::uint64_t count = text_.Whole(accessor, "count");
     const std::uint64_t stride = text_.WholeOr(accessor, "stride", 1);
     const std::uint64_t offset = text_.WholeOr(accessor, "offset", 0);
-    CheckParams(accessor, stride);
+    const std::array<std::uint64_t, 3> places = PlacesOfXyz(accessor, stride);
     if (offset + count * stride > numbers.size()) {
       text_.Refuse(accessor, absl::StrCat("it states ", count, " vertices of ", stride,
                                           " numbers, and there are ", numbers.size()));
     }
     if (!text_.error.ok()) return;
     for (std::uint64_t i = 0; i < count; ++i) {
-      const auto vertex = numbers.begin() + static_cast<std::ptrdiff_t>(offset + i * stride);
-      faces_.coordinates.insert(faces_.coordinates.end(), vertex, vertex + 3);
+      for (const std::uint64_t place : places) {
+        faces_.coordinates.push_back(numbers[offset + i * stride + place]);
+      }
     }
   }
 
-  void CheckParams(Node accessor, std::uint64_t stride) {
-    std::string names;
-    for (const Node param : accessor.children("param")) names += param.attribute("name").value();
-    if (names == "XYZ" && stride >= 3) return;
-    text_.Refuse(accessor, absl::StrCat("its params are ", Quoted(names), " and its stride is ",
-                                        stride, "; they must be X, Y and Z, and at least 3"));
+  // Where in a vertex its coordinates are: a param without a name is a number to be skipped.
+  std::array<std::uint64_t, 3> PlacesOfXyz(Node accessor, std::uint64_t stride) {
+    std::vector<std::string> names;
+    std::vector<std::uint64_t> places;
+    std::uint64_t place = 0;
+    for (const Node param : accessor.children("param")) {
+      const std::string name = param.attribute("name").value();
+      if (!name.empty()) {
+        names.push_back(name);
+        places.push_back(place);
+      }
+      ++place;
+    }
+    if (names == std::vector<std::string>{"X", "Y", "Z"} && places.back() < stride) {
+      return {places[0], places[1], places[2]};
+    }
+    text_.Refuse(accessor, absl::StrCat("its params are ", Quoted(absl::StrJoin(names, " ")),
+                                        " of ", place, " and its stride is ", stride,
+                                        "; they must be X, Y and Z, within the stride"));
+    return {};
   }
 
   // How many numbers a corner has, and which of them is the vertex.
@@ -180,7 +201,7 @@ class GeometryReader {
 
   void AddPolygons(Node primitives, Node p, const std::vector<std::uint32_t>& corners) {
     std::size_t next = 0;
-    for (const double size : text_.Numbers(primitives.child("vcount"), 0)) {
+    for (const double size : text_.Numbers(text_.Only(primitives, "vcount"), 0)) {
       if (!(size >= 3) || size != std::floor(size) ||
           size > static_cast<double>(corners.size() - next)) {
         return text_.Refuse(p, absl::StrCat("a face of ", size, " vertices at corner ", next,

@@ -13,6 +13,22 @@ using Node = pugi::xml_node;
 
 constexpr std::uint64_t kMaxWhole = 0xffffffff;
 
+class DoubledAttributes : public pugi::xml_tree_walker {
+ public:
+  explicit DoubledAttributes(ColladaText& text) : text_(text) {}
+
+  bool for_each(Node& node) override {
+    for (const pugi::xml_attribute attribute : node.attributes()) {
+      if (node.attribute(attribute.name()) == attribute) continue;
+      text_.Refuse(node, absl::StrCat("it has the attribute ", attribute.name(), " twice"));
+    }
+    return text_.error.ok();
+  }
+
+ private:
+  ColladaText& text_;
+};
+
 }  // namespace
 
 void ColladaText::Refuse(Node node, const std::string& why) {
@@ -27,6 +43,17 @@ void ColladaText::Refuse(Node node, const std::string& why) {
   const auto end =
       bytes.begin() + std::clamp<std::ptrdiff_t>(node.offset_debug(), 0, std::ssize(bytes));
   error.Set(absl::StrCat("line ", 1 + std::count(bytes.begin(), end, '\n'), ": ", place), why);
+}
+
+void ColladaText::RefuseDoubledAttributes() {
+  DoubledAttributes walker(*this);
+  document.traverse(walker);
+}
+
+Node ColladaText::Only(Node node, const char* name) {
+  const Node child = node.child(name);
+  if (child.next_sibling(name)) Refuse(child.next_sibling(name), "another one stands before it");
+  return child;
 }
 
 Node ColladaText::Referred(Node node, const char* attribute, const char* kind) {

@@ -21,6 +21,10 @@ struct ColladaText {
 
   // "line 7: triangles of geometry 'box': <why>".
   void Refuse(pugi::xml_node node, const std::string& why);
+  // XML forbids that an element has an attribute twice; pugixml takes the first.
+  void RefuseDoubledAttributes();
+  // The child of that name, of which there may be one; null if there is none.
+  pugi::xml_node Only(pugi::xml_node node, const char* name);
   // What the attribute "#box" of the node refers to; without an error if it is null.
   pugi::xml_node Referred(pugi::xml_node node, const char* attribute, const char* kind);
   // All words of the node's text, and those as finite numbers, `count` of them if that is not 0.

@@ -12,7 +12,18 @@ namespace {
 using Json = nlohmann::json;
 
 std::uint64_t BytesOf(std::uint64_t component_type) {
-  return component_type == 5121 ? 1 : component_type == 5123 ? 2 : 4;
+  const bool is_byte = component_type == 5120 || component_type == 5121;
+  const bool is_short = component_type == 5122 || component_type == 5123;
+  return is_byte ? 1 : is_short ? 2 : 4;
+}
+
+std::uint64_t ComponentsOf(const Json& type) {
+  return type == "SCALAR" ? 1
+         : type == "VEC2" ? 2
+         : type == "VEC3" ? 3
+         : type == "MAT3" ? 9
+         : type == "MAT4" ? 16
+                          : 4;
 }
 
 // "a%20b.bin" is "a b.bin".
@@ -90,7 +101,15 @@ std::uint64_t GltfAccessors::Use(std::uint64_t accessor, const Kind& kind) {
     error_.Set(place, absl::StrCat("elements of ", size, " bytes cannot stand at offset ", offset,
                                    " and ", stride, " bytes apart"));
   }
-  UseView(view, offset + stride * (count - 1) + size, kind, place);
+  const std::uint64_t end = offset + stride * (count - 1) + size;
+  UseView(view, end, kind, place);
+  const std::uint64_t length = members_.Whole(members_.Element(view, "bufferViews"),
+                                              PlaceOf("bufferViews", view), "byteLength");
+  if (offset + stride * count > length) {  // which assimp demands
+    error_.Set(place, absl::StrCat("its last element must be followed by what is missing of its ",
+                                   stride, " bytes: make ", PlaceOf("bufferViews", view), " ",
+                                   offset + stride * count - length, " bytes longer"));
+  }
   reduced_["accessors"][accessor] = {{"bufferView", view},
                                      {"byteOffset", offset},
                                      {"componentType", type},
@@ -160,6 +179,36 @@ std::string GltfAccessors::Uri(const Json& buffer, std::uint64_t bytes, const st
     error_.Set(place, absl::StrCat("it states ", bytes, " bytes and has ", data.size()));
   }
   return "data:application/octet-stream;base64," + absl::Base64Escape(data);
+}
+
+std::uint64_t GltfAccessors::EndOf(const Json& accessor, std::uint64_t stride) const {
+  const std::uint64_t count = members_.WholeOr(accessor, "", "count", 0);
+  const std::uint64_t size = BytesOf(members_.WholeOr(accessor, "", "componentType", 0)) *
+                             ComponentsOf(GltfMembers::Get(accessor, "type"));
+  if (count == 0) return 0;
+  return members_.WholeOr(accessor, "", "byteOffset", 0) +
+         (stride == 0 ? size : stride) * (count - 1) + size;
+}
+
+void GltfAccessors::CheckViewsCovered() {
+  constexpr std::uint64_t kAlignment = 4;
+  const Json& views = reduced_["bufferViews"];
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (views[v].empty()) continue;
+    const Json& view = members_.Element(v, "bufferViews");
+    const std::uint64_t stride = members_.WholeOr(view, PlaceOf("bufferViews", v), "byteStride", 0);
+    std::uint64_t end = 0;
+    for (const Json& accessor : members_.List(file_.json, "", "accessors")) {
+      if (GltfMembers::Get(accessor, "bufferView") == v)
+        end = std::max(end, EndOf(accessor, stride));
+    }
+    const std::uint64_t length = views[v]["byteLength"].get<std::uint64_t>();
+    if (length < end + std::max(kAlignment, stride)) continue;
+    error_.Set(PlaceOf("bufferViews", v),
+               absl::StrCat("its last ", length - end,
+                            " bytes are in no accessor: a part seems to be missing "
+                            "(if not, shorten it)"));
+  }
 }
 
 void GltfAccessors::Mark(const Json& number) {

@@ -34,12 +34,15 @@ class GltfAccessors {
   // Says that something refers to it: nothing about the shape, so a wrong number does not matter.
   void Mark(const Json& number);
   void CheckAllMarked();
+  // Numbers of a used view that no accessor has may be lost vertices or faces.
+  void CheckViewsCovered();
   // Those that the used buffers name.
   const std::vector<std::string>& files() const { return files_; }
 
  private:
   void UseView(std::uint64_t view, std::uint64_t end, const Kind& kind, const std::string& place);
   void UseBuffer(std::uint64_t buffer, std::uint64_t end, const std::string& place);
+  std::uint64_t EndOf(const Json& accessor, std::uint64_t stride) const;
   std::string Uri(const Json& buffer, std::uint64_t bytes, const std::string& place);
 
   const GltfFile& file_;

@@ -63,14 +63,15 @@ void AppendChunk(std::string& bytes, std::uint32_t type, std::string chunk, char
   bytes += chunk;
 }
 
-// Takes the chunk off the front of the rest.
-absl::StatusOr<std::string_view> TakeChunk(std::string_view& rest, std::uint32_t type,
+// Takes the chunk off the front of the rest; it must be of the type, if one is given.
+absl::StatusOr<std::string_view> TakeChunk(std::string_view& rest,
+                                           std::optional<std::uint32_t> type,
                                            const std::string& name) {
   if (rest.size() < kChunkHeaderBytes) {
     return absl::InvalidArgumentError(absl::StrCat("no ", name, " chunk: the file is cut off"));
   }
   const std::uint32_t size = NumberAt(rest, 0);
-  if (NumberAt(rest, 4) != type) {
+  if (type && NumberAt(rest, 4) != *type) {
     return absl::InvalidArgumentError(absl::StrCat("expected a ", name, " chunk"));
   }
   rest.remove_prefix(kChunkHeaderBytes);
@@ -113,11 +114,11 @@ absl::StatusOr<GltfFile> ReadGlb(std::string_view bytes) {
   if (rest.empty()) return file;
   const auto buffer = TakeChunk(rest, kBinaryChunk, "BIN");
   if (!buffer.ok()) return buffer.status();
-  if (!rest.empty()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(rest.size(), " bytes follow the BIN chunk; other chunks are not read"));
-  }
   file->buffer = std::string(*buffer);
+  while (!rest.empty()) {  // of extensions: to be ignored
+    const auto other = TakeChunk(rest, std::nullopt, "third");
+    if (!other.ok()) return other.status();
+  }
   return file;
 }
 

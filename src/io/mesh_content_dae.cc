@@ -69,8 +69,9 @@ class Content {
         !(version.starts_with("1.4") || version.starts_with("1.5"))) {
       text_.Refuse(root, "expected <COLLADA> of version 1.4 or 1.5");
     }
+    text_.RefuseDoubledAttributes();
     FindIds(root);
-    ReadAsset(root.child("asset"));
+    ReadAsset(text_.Only(root, "asset"));
     ReadScene(root);
     for (const auto& [key, node] : text_.by_id) CheckShown(key, node);
     if (content_.faces == 0) text_.error.Set("", "it has no faces");
@@ -89,23 +90,23 @@ class Content {
   }
 
   void ReadAsset(Node asset) {
-    const Node unit = asset.child("unit");
+    const Node unit = text_.Only(asset, "unit");
     const std::string metres = unit.attribute("meter").as_string("1");
     double metres_per_unit = 0;
     if (!ParseNumber(metres, metres_per_unit) || !(metres_per_unit > 0) ||
         !std::isfinite(metres_per_unit)) {
       text_.Refuse(unit, absl::StrCat("meter is ", Quoted(metres), "; it must be above 0"));
     }
-    const std::string up(asset.child("up_axis") ? Trimmed(text_.Text(asset.child("up_axis")))
-                                                : std::string_view("Y_UP"));
+    const Node up_axis = text_.Only(asset, "up_axis");
+    const std::string up = up_axis ? std::string(Trimmed(text_.Text(up_axis))) : "Y_UP";
     if (up != "X_UP" && up != "Y_UP" && up != "Z_UP") {
-      text_.Refuse(asset.child("up_axis"), "it must be X_UP, Y_UP or Z_UP");
+      text_.Refuse(up_axis, "it must be X_UP, Y_UP or Z_UP");
     }
     reduced_.SetAsset(metres_per_unit, up);
   }
 
   void ReadScene(Node root) {
-    const Node instance = root.child("scene").child("instance_visual_scene");
+    const Node instance = text_.Only(text_.Only(root, "scene"), "instance_visual_scene");
     if (!instance) return text_.Refuse(root, "it has no <scene> with an <instance_visual_scene>");
     AddNode(text_.Referred(instance, "url", "visual_scene"), Eigen::Affine3d::Identity(), 0);
   }

@@ -20,10 +20,10 @@ using Json = nlohmann::json;
 
 constexpr int kMaxNodeDepth = 1000;
 
-// What these change is seen, not touched.
+// What these change is seen or read, not touched.
 bool IsAboutLooks(const std::string& extension) {
   for (const char* const start :
-       {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_"}) {
+       {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"}) {
     if (absl::StartsWith(extension, start)) return true;
   }
   return false;
@@ -206,6 +206,7 @@ class Content {
       accessors_.Mark(GltfMembers::Get(skin, "inverseBindMatrices"));
     }
     accessors_.CheckAllMarked();
+    accessors_.CheckViewsCovered();
   }
 
   GltfFile file_;

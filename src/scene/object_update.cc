@@ -14,7 +14,7 @@ namespace {
 
 // Poses to come whose time has come are forgotten: the new one counts.
 void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
-  if (object.t_k() == pose.stamp) {
+  if (!object.history.empty() && object.t_k() == pose.stamp) {
     object.history.back() = pose;
   } else {
     object.history.push_back(pose);
@@ -32,6 +32,18 @@ void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& o
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
   if (from != nullptr) object.velocity_O = VelocityBetween(*from, to);
+}
+
+// A pose that is known tells how the object came there from the last one that was, so what was
+// predicted in between is forgotten. After a longer gap the track is young again: what the object
+// did in between is not known.
+void ForgetPredictions(Time stamp, MovingObject& object) {
+  constexpr Duration kLongGap = std::chrono::seconds(1);
+  if (!object.bridged) return;
+  const auto predicted =
+      std::ranges::upper_bound(object.history, object.placed_at, {}, &StampedPose::stamp);
+  object.history.erase(predicted, object.history.end());
+  object.bridged = stamp - object.placed_at > kLongGap;
 }
 
 // After a pose that is no prediction, be it a motion from a predicted one: then what was missed in
@@ -140,16 +152,19 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     T_W_from.translation += clue.off_W;
     const Pose T_W_T = CarriedOn(*clue.motion, T_W_from, object);  // eq. 2
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
+    if (clue.motion->from <= object.placed_at + kNoGap) ForgetPredictions(stamp, object);
     const StampedPose from{clue.motion->from, T_W_from};
     SetVelocity(&from, {stamp, T_W_O}, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
-    if (!object.T_B_O) {
+    const bool is_first = !object.T_B_O;
+    if (is_first) {
       object.T_B_O = Inverse(clue.pose->T_W_B) * PlaceByItsPoints(object, clue, stamp, params);
       object.told.reset();
     }
     const Pose T_W_T = clue.pose->T_W_B * *object.T_B_O;
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
+    if (!is_first) ForgetPredictions(stamp, object);
     SetVelocity(nullptr, {stamp, T_W_O}, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.T_W_O_estimated) {

@@ -234,7 +234,7 @@ TEST_F(CliServer, ReplayThatStopsSaysHowFarItCame) {
   const TemporaryFolder folder;
   const Finished dut = Clearway({"replay", WriteCutExample(folder)});
   EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, HasSubstr("stopped at frame 1 of 3; 1 frame was sent"));
+  EXPECT_THAT(dut.err, HasSubstr("stopped at frame 1 of 3 (counted from 0); 1 frame was sent"));
   EXPECT_THAT(dut.err, HasSubstr("0005.bin: 7 bytes are not a whole number"));
   EXPECT_EQ(Ask({"status"})["frames_applied"], 1);
 }
@@ -249,8 +249,22 @@ TEST_F(CliServer, ReplayThatKeepsGoingLeavesOutWhatCannotBeRead) {
   const json summary = json::parse(dut.out);
   EXPECT_EQ(summary["applied"], 2);
   EXPECT_EQ(summary["left_out"]["frames"], 1);
-  EXPECT_THAT(summary["left_out"]["reasons"].dump(), HasSubstr("frame 1: "));
+  EXPECT_THAT(summary["left_out"]["reasons"].dump(), HasSubstr("(frame 1, counted from 0)"));
   EXPECT_EQ(summary["reports"]["objects_restarted"], 0);
+}
+
+// Frames that cannot be read stop no replay of others.
+TEST_F(CliServer, RangesInSecondsPassOverWhatCannotBeRead) {
+  const TemporaryFolder folder;
+  const std::string path = WriteCutExample(folder);
+  Finished dut = Clearway({"replay", path, "--from", "0.15s", "--json"});
+  EXPECT_EQ(dut.exit_code, 0) << dut.err;
+  EXPECT_EQ(json::parse(dut.out)["applied"], 1);
+  dut = Clearway({"replay", path, "--to", "0.05s", "--json"});
+  EXPECT_EQ(dut.exit_code, 0) << dut.err;
+  EXPECT_EQ(json::parse(dut.out)["applied"], 1);
+  dut = Clearway({"replay", path, "--from", "0s", "--keep-going", "--json"});
+  EXPECT_EQ(json::parse(dut.out)["applied"], 2);
 }
 
 TEST_F(CliServer, InfoCountsAndNamesWhatCounts) {

@@ -199,6 +199,16 @@ TEST_F(CloudFolder, StampsNeedATableWithStampsUnlessThereAreAsManyPoses) {
   EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(2, 1), Place(3, 2)));
 }
 
+// Every tenth cloud of a KITTI drive.
+TEST_F(CloudFolder, OfATableWithoutStampsTheyAreRows) {
+  std::string rows;
+  for (int x = 0; x <= 10; ++x) absl::StrAppend(&rows, "1 0 0 ", x, " 0 1 0 0 0 0 1 0\n");
+  folder_.Write("poses.txt", rows);
+  WriteClouds({"0000000000.pcd", "0000000010.pcd"});
+  EXPECT_THAT(Places(), ElementsAre(Place(0, 0), Place(10, 1)));
+  EXPECT_THAT(Open()->frames.description, HasSubstr("of the rows that number the clouds"));
+}
+
 TEST_F(CloudFolder, LabelsComeFromTheFieldThatIsNamed) {
   folder_.Write("poses.txt", kTum);
   WriteClouds({"0.pcd", "1.pcd", "2.pcd"});

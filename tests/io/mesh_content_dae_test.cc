@@ -155,7 +155,38 @@ TEST(MeshContentDae, IndicesAreThoseOfVertices) {
   }
   EXPECT_THAT(ErrorOf(With("<p>0 0 2 0", "<p>0 0 4 0")), HasSubstr("it names vertex 4 of 4"));
   EXPECT_THAT(ErrorOf(With("<p>0 0 2 0", "<p>0 0 2")), HasSubstr("a corner has 2"));
-  EXPECT_THAT(ErrorOf(With("<param name=\"X\"", "<param name=\"U\"")), HasSubstr("UYZ"));
+  EXPECT_THAT(ErrorOf(With("<param name=\"X\"", "<param name=\"U\"")), HasSubstr("'U Y Z' of 3"));
+}
+
+// A param without a name is a number to be skipped (COLLADA 1.4.1, <accessor>).
+TEST(MeshContentDae, NumbersBetweenCoordinatesAreSkipped) {
+  const auto skipping = [](const std::string& numbers, const std::string& params) {
+    return absl::StrReplaceAll(
+        Dae(), {{"count=\"12\">0 0 0 1 0 0 0 1 0 0 0 1<", "count=\"16\">" + numbers + "<"},
+                {"count=\"4\" stride=\"3\"", "count=\"4\" stride=\"4\""},
+                {"<param name=\"X\" type=\"float\"/>", params}});
+  };
+  const std::string skip = "<param type=\"float\"/>", x = "<param name=\"X\" type=\"float\"/>";
+  for (const auto& mesh : {Read(skipping("9 0 0 0 9 1 0 0 9 0 1 0 9 0 0 1", skip + x)),
+                           Read(skipping("0 9 0 0 1 9 0 0 0 9 1 0 0 9 0 1", x + skip)),
+                           Read(skipping("0 0 0 9 1 0 0 9 0 1 0 9 0 0 1 9", x))}) {
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_TRUE(BoxAround(*mesh).max.isApprox(Eigen::Vector3d(3, 1, 2), 1e-6));
+  }
+  EXPECT_THAT(ErrorOf(skipping("9 9 0 0 9 9 1 0 9 9 0 1 9 9 0 0", skip + skip + x)),
+              HasSubstr("'X Y Z' of 5 and its stride is 4"));
+}
+
+TEST(MeshContentDae, NothingIsStatedTwice) {
+  const auto twice = [](const std::string& element, const std::string& other) {
+    return ErrorOf(With(element, other + element));
+  };
+  const std::string unit = "<unit name=\"inch\" meter=\"0.0254\"/>";
+  EXPECT_THAT(ErrorOf(With("<up_axis>", unit + "<up_axis>")), HasSubstr("<unit>: another one"));
+  EXPECT_THAT(twice("<asset>", "<asset>" + unit + "</asset>"), HasSubstr("<asset>: another one"));
+  EXPECT_THAT(twice("<up_axis>", "<up_axis>X_UP</up_axis>"), HasSubstr("<up_axis>: another one"));
+  EXPECT_THAT(twice("meter=\"1\"", "meter=\"2\" "), HasSubstr("the attribute meter twice"));
+  EXPECT_THAT(twice("<scene>", "<scene/>"), HasSubstr("<scene>: another one"));
 }
 
 TEST(MeshContentDae, WhatIsNotSupportedIsNamed) {

@@ -177,6 +177,27 @@ TEST(MeshContentGltf, AccessorsFitTheirBuffers) {
   EXPECT_THAT(ErrorWithout("/accessors/3", "bufferView"), HasSubstr("bufferView is missing"));
 }
 
+TEST(MeshContentGltf, AllNumbersOfAViewAreInAnAccessor) {
+  Json json = GltfJson();
+  json["accessors"][2]["componentType"] = 5121;  // half of the shorts, as bytes
+  json["accessors"][4]["componentType"] = 5121;
+  EXPECT_THAT(ErrorOf("a.glb", Glb(json)), HasSubstr("bufferViews[2]: its last 12 bytes"));
+  EXPECT_THAT(ErrorWith("/bufferViews/0/byteLength", 56), HasSubstr("are in no accessor"));
+}
+
+TEST(MeshContentGltf, OtherChunksAreIgnored) {
+  const auto with_chunk = [](std::string chunk) {
+    std::string bytes = Glb(GltfJson()) + chunk;
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    std::memcpy(bytes.data() + 8, &size, sizeof size);
+    return bytes;
+  };
+  const std::string chunk("\4\0\0\0ABCDdata", 12);
+  const auto mesh = Read("a.glb", with_chunk(chunk + chunk));
+  EXPECT_TRUE(mesh.ok()) << mesh.status();
+  EXPECT_THAT(ErrorOf("a.glb", with_chunk(chunk.substr(0, 10))), HasSubstr("chunk"));
+}
+
 TEST(MeshContentGltf, BuffersAreWhereTheySay) {
   Json json = GltfJson();
   EXPECT_THAT(ErrorOf("a.gltf", json.dump()), HasSubstr("buffers[0]: uri is missing"));
