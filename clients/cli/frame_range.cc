@@ -34,6 +34,9 @@ class Frames {
     return Bisect([offset](Duration at) { return at <= offset; });
   }
 
+  // That no time is known.
+  absl::Status Error() { return TimeOf(0) == kUnread ? first_error_ : absl::OkStatus(); }
+
   absl::Status Refused(const std::string& why) {
     std::string text = absl::StrCat(why, "; ", spec_, " ends at frame ", source_.frame_count - 1);
     const Duration last = TimeOf(source_.frame_count - 1);
@@ -44,19 +47,28 @@ class Frames {
  private:
   static constexpr Duration kUnread = Duration::max();
 
-  // After the first frame that can be read. Of a frame that cannot be read, that of the next that
+  // After the first frame that can be read. One that cannot be read is just before the next that
   // can, and kUnread if there is none: what to do about such frames is not for the range to say.
   Duration TimeOf(std::size_t k) {
-    if (!first_) first_ = StampFrom(0);
-    const std::optional<Time> stamp = StampFrom(k);
-    return stamp && first_ ? *stamp - *first_ : kUnread;
+    if (!first_) first_ = NextFrom(0).stamp;
+    const Next next = NextFrom(k);
+    if (!next.stamp) return kUnread;
+    return *next.stamp - *first_ - Duration(next.frame == k ? 0 : 1);
   }
 
-  std::optional<Time> StampFrom(std::size_t k) {
+  struct Next {
+    std::size_t frame = 0;
+    std::optional<Time> stamp;  // none if there is none
+  };
+
+  // The next frame from k on that can be read.
+  Next NextFrom(std::size_t k) {
     for (; k < source_.frame_count; ++k) {
-      if (const auto frame = source_.read(k); frame.ok()) return frame->stamp;
+      const auto frame = source_.read(k);
+      if (frame.ok()) return {k, frame->stamp};
+      if (k == 0) first_error_ = frame.status();
     }
-    return std::nullopt;
+    return {};
   }
 
   // The first frame for which `before` does not hold.
@@ -72,6 +84,7 @@ class Frames {
 
   const std::string& spec_;
   const FrameSource& source_;
+  absl::Status first_error_;   // of frame 0, if it cannot be read
   std::optional<Time> first_;  // stamp of the first frame that can be read, once it was
 };
 
@@ -105,6 +118,12 @@ absl::StatusOr<FrameRange> FramesIn(const FrameRangeFlags& flags, const std::str
   if (source.frame_count == 0) return absl::FailedPreconditionError(spec + ": holds no frames");
   Frames frames(spec, source);
   FrameRange range{0, source.frame_count};
+  const auto is_time = [](const std::optional<FrameBound>& bound) {
+    return bound && std::holds_alternative<Duration>(*bound);
+  };
+  if (is_time(flags.from) || is_time(flags.to)) {
+    if (auto status = frames.Error(); !status.ok()) return status;
+  }
   if (flags.from) {
     range.first = frames.FirstFrom(*flags.from);
     if (range.first >= source.frame_count) {
