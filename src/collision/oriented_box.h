@@ -15,6 +15,8 @@ struct OrientedBox {
         abs_R_B_G(R_B_from_G.cwiseAbs()),
         reach_G(abs_R_B_G.transpose() * half_edges_m) {}
 
+  OrientedBox Padded(double by_m) const { return {center_G, R_B_G, half_m.array() + by_m}; }
+
   Eigen::Vector3d center_G;
   Eigen::Matrix3d R_B_G;
   Eigen::Vector3d half_m;  // of its edges, along B's axes

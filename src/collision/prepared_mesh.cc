@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-9;
+constexpr double kThin_m = 1e-6;  // what is that near almost always meets
 
 }  // namespace
 
@@ -46,6 +47,9 @@ double PreparedMesh::DistanceTo(const OrientedBox& box, double up_to_m) const {
   const DistanceGrid::Surroundings around = grid_.At(box.center_G);
   if (around.same_m > kRounding_m && around.inside) return 0;
   const double at_least_m = around.near_m - box.half_m.norm() - kRounding_m;
+  if (at_least_m <= 0 && up_to_m <= kThin_m && !tree_.Meets(box.Padded(up_to_m))) {
+    return Contains(box.center_G) ? 0 : kFar;
+  }
   if (at_least_m <= 0 && tree_.Meets(box)) return 0;
   if (Contains(box.center_G)) return 0;
   if (at_least_m > up_to_m) return at_least_m;
