@@ -13,6 +13,7 @@
 #include "cli/evaluation.h"
 #include "cli/evaluation_html.h"
 #include "cli/frame_range.h"
+#include "cli/frame_reader.h"
 #include "cli/left_out_text.h"
 #include "cli/message.h"
 #include "cli/progress.h"
@@ -47,7 +48,7 @@ struct Flags {
   bool reidentify = false, filter_labels = false, clear_objects = false;
   double dynamic_life_s = 0;
   ErrorFlags errors;
-  bool allow_stamp_jump = false;
+  bool allow_stamp_jump = false, keep_going = false;
   bool json = false;
   std::string html;
 };
@@ -92,27 +93,29 @@ SceneParams ParamsOf(const TrueSource& source, const Flags& flags) {
 using AfterFrame = std::function<void(std::size_t k, Frame frame, const Frame& told,
                                       const FrameReport& report, SceneBuilder& builder)>;
 
-absl::Status MakeScene(const TrueSource& source, FrameRange range, const SceneParams& params,
+absl::Status MakeScene(FrameReader& reader, FrameRange range, const SceneParams& params,
                        const Flags& flags, const Terminal& terminal, FrameTeller& teller,
                        const AfterFrame& after) {
   ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   SceneBuilder builder(params, FrameLimits(), pool);
   ProgressBar progress(terminal.err, terminal.err_is_terminal, range.size());
-  std::uint64_t points = 0;
+  std::size_t applied = 0, points = 0;
   for (std::size_t k = range.first; k < range.end; ++k) {
-    auto frame = source.frames.read(k);
-    if (!frame.ok()) return frame.status();
+    std::optional<Frame> frame = reader.Read(k);
+    if (reader.stopped()) return reader.Result();
+    if (!frame) continue;
     const Frame told = teller.Tell(*frame);
     const auto report = builder.Apply(told, {.allow_stamp_jump = flags.allow_stamp_jump});
     if (!report.ok()) {
       return InContext(absl::StrCat("frame ", k, " of ", flags.spec), report.status());
     }
+    ++applied;
     points += frame->points_S.size();
     after(k, *std::move(frame), told, *report, builder);
     progress.Update(k + 1 - range.first, points);
   }
   progress.Finish();
-  return absl::OkStatus();
+  return applied > 0 ? absl::OkStatus() : reader.Result();
 }
 
 // The scene that is evaluated next is made once before: what is predicted is judged by how the
@@ -129,14 +132,17 @@ absl::Status CarryTruth(FrameRange range, const SceneParams& params, const Flags
   };
   terminal.err
       << "note: goes over the frames twice, first to see where registering puts the scans\n";
-  absl::Status status = MakeScene(source, range, params, flags, terminal, teller, add);
+  const LeftOut before = *source.frames.left_out;
+  FrameReader reader(source.frames, flags.keep_going);
+  absl::Status status = MakeScene(reader, range, params, flags, terminal, teller, add);
   if (!status.ok()) return status;
+  *source.frames.left_out = before;  // the next pass comes by the same frames
   source.truth = CarriedBy(std::move(corrections), source.truth);
   source.truth.description += ", where the sensor saw them (scans are registered to the map)";
   return absl::OkStatus();
 }
 
-absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, FrameRange range,
+absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, FrameReader& reader, FrameRange range,
                                     const SceneParams& params, const Flags& flags,
                                     const Terminal& terminal) {
   Evaluator evaluator(source, flags.errors.unlabelled);
@@ -146,7 +152,7 @@ absl::StatusOr<Evaluation> Evaluate(const TrueSource& source, FrameRange range,
     frame.T_W_S = *report.T_W_S;
     evaluator.Add(k, frame, report, teller.WithTrueNames(told, builder.Publish()));
   };
-  auto status = MakeScene(source, range, params, flags, terminal, teller, add);
+  auto status = MakeScene(reader, range, params, flags, terminal, teller, add);
   if (!status.ok()) return status;
   Evaluation found = std::move(evaluator).Result();
   found.identities = teller.identities();
@@ -171,7 +177,8 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
     if (auto status = CarryTruth(*range, params, flags, terminal, *source); !status.ok())
       return status;
   }
-  auto found = Evaluate(*source, *range, params, flags, terminal);
+  FrameReader reader(source->frames, flags.keep_going);
+  auto found = Evaluate(*source, reader, *range, params, flags, terminal);
   if (!found.ok()) return found.status();
   found->command = cli.command_line;
   if (!flags.html.empty()) {
@@ -180,7 +187,7 @@ absl::Status Run(const Flags& flags, const Cli& cli) {
   const LeftOut& left_out = *source->frames.left_out;
   if (!left_out.Empty()) terminal.err << "warning: " << LeftOutText(left_out);
   flags.json ? PrintJson(terminal.out, *source, *found) : PrintText(terminal.out, *source, *found);
-  return absl::OkStatus();
+  return reader.Result();
 }
 
 }  // namespace
@@ -263,6 +270,7 @@ void AddEvaluate(Cli& cli) {
       ->capture_default_str();
   command->add_flag("--allow-stamp-jump", flags->allow_stamp_jump,
                     "Go on across gaps of more than an hour between stamps");
+  AddKeepGoingFlag(command, &flags->keep_going);
   command->add_option("--html", flags->html, "Also write a page with tables, plots and pictures")
       ->check([](const std::string& file) { return file.empty() ? "name a file" : ""; })
       ->type_name("FILE");

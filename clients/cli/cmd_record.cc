@@ -20,6 +20,7 @@ struct Flags {
   SourceFlags source;
   FrameRangeFlags range;
   bool force = false;
+  bool keep_going = false;
   bool json = false;
 };
 
@@ -29,7 +30,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!source.ok()) return source.status();
   const auto range = FramesIn(flags.range, flags.spec, *source);
   if (!range.ok()) return range.status();
-  const auto written = WriteRecording(*source, *range, flags.out, flags.force, terminal);
+  FrameReader reader(*source, flags.keep_going);
+  const auto written = WriteRecording(*source, reader, *range, flags.out, flags.force, terminal);
   if (!written.ok()) return written.status();
   if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
@@ -43,7 +45,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   } else {
     PrintWritten(terminal.out, flags.out, *written);
   }
-  return absl::OkStatus();
+  return reader.Result();
 }
 
 }  // namespace
@@ -59,6 +61,7 @@ void AddRecord(Cli& cli) {
       ->required();
   command->add_option("-o,--out", flags->out, "The recording to write")->required();
   command->add_flag("--force", flags->force, "Replace a file that exists");
+  AddKeepGoingFlag(command, &flags->keep_going);
   AddFrameRangeFlags(command, &flags->range);
   command->add_flag("--json", flags->json, "Print a summary as JSON");
   AddSourceFlags(command, &flags->source);

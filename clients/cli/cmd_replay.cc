@@ -7,6 +7,7 @@
 #include "cli/ack_tally.h"
 #include "cli/commands.h"
 #include "cli/frame_range.h"
+#include "cli/frame_reader.h"
 #include "cli/json.h"
 #include "cli/left_out_text.h"
 #include "cli/message.h"
@@ -45,32 +46,15 @@ struct Flags {
   bool json = false;
 };
 
-// Frames that could not be read.
-struct Unread {
-  std::size_t count = 0;
-  std::size_t first = 0;
-  absl::Status why;  // the first
-  bool stopped = false;
-};
-
 // Frames of the source through one stream; returns what stopped it early.
-absl::Status SendAll(const FrameSource& source, FrameRange range, const Flags& flags,
-                     FrameSender& sender, AckTally& tally, ProgressBar& progress, Unread& unread) {
+absl::Status SendAll(FrameReader& reader, FrameRange range, const Flags& flags, FrameSender& sender,
+                     AckTally& tally, ProgressBar& progress) {
   Pace pace(flags.rate);
   FrameTeller teller(flags.errors);
   for (std::size_t i = range.first; i < range.end; ++i) {
-    auto frame = source.read(i);
-    if (!frame.ok()) {
-      if (unread.count++ == 0) {
-        unread.first = i;
-        unread.why = frame.status();
-      }
-      unread.stopped = !flags.keep_going;
-      if (unread.stopped) return absl::OkStatus();
-      source.left_out->AddFrame(
-          absl::StrCat(frame.status().message(), " (frame ", i, ", counted from 0)"));
-      continue;
-    }
+    std::optional<Frame> frame = reader.Read(i);
+    if (reader.stopped()) return absl::OkStatus();
+    if (!frame) continue;
     frame->sensor_run ^= sender.sensor_run();  // keeps apart the runs of a recording
     pace.WaitFor(frame->stamp);
     tally.Sent(*frame);
@@ -105,13 +89,9 @@ ReconnectOptions Reconnect(const Flags& flags, AckTally& tally,
   return reconnect;
 }
 
-absl::Status Stopped(const Unread& unread, const FrameSource& source,
-                     const AckTally::Counts& counts) {
-  return InContext(absl::StrCat("stopped at frame ", unread.first, " of ", source.frame_count,
-                                " (counted from 0); ", Plural(counts.answered, "frame"),
-                                counts.answered == 1 ? " was" : " were",
-                                " sent; --keep-going leaves such frames out"),
-                   unread.why);
+std::string Sent(const AckTally::Counts& counts) {
+  return absl::StrCat("; ", Plural(counts.answered, "frame"),
+                      counts.answered == 1 ? " was" : " were", " sent");
 }
 
 absl::Status Run(const Flags& flags, const Terminal& terminal) {
@@ -138,8 +118,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const AckLevel wait_for = flags.wait == "accepted" ? AckLevel::kAccepted : AckLevel::kApplied;
   absl::Status status = sender.OpenStream(tally.OnAck(), wait_for, Reconnect(flags, tally, note));
   if (!status.ok()) return status;
-  Unread unread;
-  status = SendAll(*source, *range, flags, sender, tally, progress, unread);
+  FrameReader reader(*source, flags.keep_going);
+  status = SendAll(reader, *range, flags, sender, tally, progress);
   const std::uint64_t reconnects = sender.state().reconnects;
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
@@ -151,7 +131,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
                                   " were applied or refused"),
                      status);
   }
-  if (unread.stopped) return Stopped(unread, *source, counts);
+  if (reader.stopped()) return reader.Result(Sent(counts));
 
   if (!source->left_out->Empty()) terminal.err << "warning: " << LeftOutText(*source->left_out);
   if (flags.json) {
@@ -164,12 +144,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
                                   counts.first_refused_sensor, " was refused"),
                      counts.first_refusal);
   }
-  if (unread.count > 0) {
-    return InContext(
-        absl::StrCat(Plural(unread.count, "frame"), " could not be read, the first: frame ",
-                     unread.first, " (counted from 0)"),
-        unread.why);
-  }
+  if (absl::Status unread = reader.Result(); !unread.ok()) return unread;
   if (counts.lost > 0) {
     return absl::DataLossError(absl::StrCat("the server restarted: its scene lacks the first ",
                                             Plural(counts.lost, "frame"),
@@ -206,10 +181,9 @@ void AddReplay(Cli& cli) {
           "at once")
       ->check(Between(0, 1e6))
       ->capture_default_str();
-  command->add_flag(
-      "--keep-going", flags->keep_going,
-      "Go on after a frame that cannot be read or that the server\nrefuses; it is left "
-      "out (the exit code is 1 still)");
+  AddKeepGoingFlag(command, &flags->keep_going,
+                   "Go on after a frame that cannot be read or that the server\nrefuses; it is "
+                   "left out (the exit code is 1 still)");
   command
       ->add_option("--sensor-run", flags->sensor_run,
                    "Part of each frame's name. With the same number, frames\nthat the server has "

@@ -44,8 +44,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!simulation.ok()) return simulation.status();
   const FrameSource source = simulation->Frames();
 
-  const auto written =
-      WriteRecording(source, FrameRange{0, source.frame_count}, flags.out, flags.force, terminal);
+  FrameReader reader(source, /*keep_going=*/false);
+  const auto written = WriteRecording(source, reader, FrameRange{0, source.frame_count}, flags.out,
+                                      flags.force, terminal);
   if (!written.ok()) return written.status();
 
   if (flags.json) {

@@ -11,20 +11,21 @@
 namespace clearway::cli {
 namespace {
 
-absl::StatusOr<Written> WriteAll(const FrameSource& source, FrameRange range,
-                                 RecordingWriter& writer, const Terminal& terminal) {
+absl::StatusOr<Written> WriteAll(FrameReader& reader, FrameRange range, RecordingWriter& writer,
+                                 const Terminal& terminal) {
   ProgressBar progress(terminal.err, terminal.err_is_terminal, range.size());
   Written written;
   absl::Status status;
-  for (std::size_t k = range.first; k < range.end; ++k) {
-    const auto frame = source.read(k);
-    status = frame.ok() ? writer.Append(*frame) : frame.status();
-    if (!status.ok()) break;
+  for (std::size_t k = range.first; k < range.end && status.ok() && !reader.stopped(); ++k) {
+    const std::optional<Frame> frame = reader.Read(k);
+    if (!frame) continue;
+    status = writer.Append(*frame);
     ++written.frames;
     written.points += frame->points_S.size();
     progress.Update(written.frames, written.points);
   }
   progress.Finish();
+  if (status.ok() && (reader.stopped() || written.frames == 0)) status = reader.Result();
   if (status.ok()) status = writer.Close();
   if (!status.ok()) return status;
   return written;
@@ -45,8 +46,8 @@ absl::Status CheckRecordingName(const std::string& out) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange range,
-                                       const std::string& path, bool overwrite,
+absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameReader& reader,
+                                       FrameRange range, const std::string& path, bool overwrite,
                                        const Terminal& terminal) {
   RecordingOptions options;
   options.description = source.description;
@@ -58,7 +59,7 @@ absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange ran
     return absl::AlreadyExistsError(absl::StrCat(path, " exists; --force replaces it"));
   }
   if (!writer.ok()) return writer.status();
-  return WriteAll(source, range, **writer, terminal);
+  return WriteAll(reader, range, **writer, terminal);
 }
 
 void PrintWritten(std::ostream& out, const std::string& path, const Written& written) {

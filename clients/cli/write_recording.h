@@ -7,6 +7,7 @@
 #include "absl/status/statusor.h"
 #include "cli/cli.h"
 #include "cli/frame_range.h"
+#include "cli/frame_reader.h"
 
 namespace clearway::cli {
 
@@ -19,10 +20,11 @@ struct Written {
 // of file.
 absl::Status CheckRecordingName(const std::string& out);
 
-// The recording appears at `path` when it is whole. Errors as the source's and RecordingWriter's;
-// ALREADY_EXISTS unless `overwrite`.
-absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameRange range,
-                                       const std::string& path, bool overwrite,
+// The frames of the source that `reader` can read. The recording appears at `path` when it is
+// whole. Errors as RecordingWriter's, and the reader's if it stops or can read none; ALREADY_EXISTS
+// unless `overwrite`.
+absl::StatusOr<Written> WriteRecording(const FrameSource& source, FrameReader& reader,
+                                       FrameRange range, const std::string& path, bool overwrite,
                                        const Terminal& terminal);
 
 // "wrote drive.cwr: 100 frames, 2,000,000 points", and what to do with it.

@@ -20,6 +20,8 @@ namespace og = ompl::geometric;
 // What is left of the way counts so much where a first path is looked for greedily.
 constexpr double kGreedy = 16;
 constexpr std::size_t kMostGoals = 10;
+// Among fewer places, more of them find a way sooner than closer looks at what passes by.
+constexpr std::size_t kManyPlaces = 1600;
 
 }  // namespace
 
@@ -143,7 +145,7 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
       impl_->search.JoinAlongPath();
       if (first) continue;
     }
-    if (!earlier) impl_->search.LookFiner();
+    if (!earlier && impl_->search.places() >= kManyPlaces) impl_->search.LookFiner();
     if (!enough && !until()) {
       more = impl_->search.AddPlaces(std::max<std::size_t>(first_batch_, impl_->search.places()),
                                      until);

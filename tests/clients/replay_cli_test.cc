@@ -223,47 +223,6 @@ TEST_F(CliServer, ReplayDoesNotTellOfThemAServerThatRegistersScans) {
   EXPECT_THAT(oxts.err, Not(HasSubstr("note")));
 }
 
-// Three frames, 4 to 6, of which the second's points are cut off.
-std::string WriteCutExample(const TemporaryFolder& folder) {
-  WriteExample(folder);
-  folder.Write("points/0005.bin", "cut off");
-  return folder.path();
-}
-
-TEST_F(CliServer, ReplayThatStopsSaysHowFarItCame) {
-  const TemporaryFolder folder;
-  const Finished dut = Clearway({"replay", WriteCutExample(folder)});
-  EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, HasSubstr("stopped at frame 1 of 3 (counted from 0); 1 frame was sent"));
-  EXPECT_THAT(dut.err, HasSubstr("0005.bin: 7 bytes are not a whole number"));
-  EXPECT_EQ(Ask({"status"})["frames_applied"], 1);
-}
-
-TEST_F(CliServer, ReplayThatKeepsGoingLeavesOutWhatCannotBeRead) {
-  const TemporaryFolder folder;
-  const std::string path = WriteCutExample(folder);
-  const Finished dut = Clearway({"replay", path, "--keep-going", "--json"});
-  EXPECT_EQ(dut.exit_code, 1);
-  EXPECT_THAT(dut.err, HasSubstr("1 frame of the input is left out"));
-  EXPECT_THAT(dut.err, HasSubstr("1 frame could not be read, the first: frame 1"));
-  const json summary = json::parse(dut.out);
-  EXPECT_EQ(summary["applied"], 2);
-  EXPECT_EQ(summary["left_out"]["frames"], 1);
-  EXPECT_THAT(summary["left_out"]["reasons"].dump(), HasSubstr("(frame 1, counted from 0)"));
-  EXPECT_EQ(summary["reports"]["objects_restarted"], 0);
-}
-
-// Frames that cannot be read stop no replay of others.
-TEST_F(CliServer, RangesInSecondsPassOverWhatCannotBeRead) {
-  const TemporaryFolder folder;
-  const std::string path = WriteCutExample(folder);
-  for (const auto& [flag, seconds] : {std::pair("--to", "0.05s"), {"--from", "0.2s"}}) {
-    const Finished dut = Clearway({"replay", path, flag, seconds, "--json"});
-    EXPECT_EQ(dut.exit_code, 0) << dut.err;
-    EXPECT_EQ(json::parse(dut.out)["applied"], 1);
-  }
-}
-
 TEST_F(CliServer, InfoCountsAndNamesWhatCounts) {
   const TemporaryFolder folder;
   WriteExample(folder);
