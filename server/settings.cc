@@ -236,7 +236,7 @@ std::vector<Setting> SceneSettings() {
       CLEARWAY_SETTING("scene.motion_from_points", scene.motion_from_points,
                        "auto, on or off: estimate the motion of objects that come without one "
                        "from their points (z of the world must point up); auto: of those "
-                       "that never had one"),
+                       "that never had one, or none for 0.6 s"),
       CLEARWAY_SETTING("scene.horizon_s", scene.horizon, "how long motions are extrapolated",
                        kUpToADay_s),
       CLEARWAY_SETTING("scene.object_lifetime_s", scene.object_lifetime,

@@ -89,9 +89,10 @@ std::vector<std::string> ObjectNotes::Lines() const {
   }
   if (unlisted_ > 0) lines.push_back(absl::StrCat("and ", unlisted_, " more of these"));
   if (bridged_ + estimated_ > 0) {
-    lines.push_back(absl::StrCat(
-        "objects came without a motion or pose ", Plural(bridged_ + estimated_, "time"), ": ",
-        estimated_, " estimated from their points, ", bridged_, " placed by prediction"));
+    lines.push_back(absl::StrCat("objects came without a motion or pose ",
+                                 Plural(bridged_ + estimated_, "time"), ": ", estimated_,
+                                 " estimated from their points, ", bridged_,
+                                 " placed by prediction and their points"));
   }
   return lines;
 }

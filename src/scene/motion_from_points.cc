@@ -1,6 +1,7 @@
 #include "scene/motion_from_points.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -85,9 +86,11 @@ PoseGuess GuessOfView(const MovingObject& object, const LastView& last,
 
 }  // namespace
 
-bool MayBeEstimated(const MovingObject& object, const SceneParams& params) {
+bool MayBeEstimated(const MovingObject& object, Time stamp, const SceneParams& params) {
+  constexpr Duration kPause = std::chrono::milliseconds(600);  // keyframes at 2 Hz, and jitter
   if (object.given() || params.motion_from_points == MotionFromPoints::kOff) return false;
-  return params.motion_from_points == MotionFromPoints::kOn || !object.reported;
+  if (params.motion_from_points == MotionFromPoints::kOn || !object.reported) return true;
+  return object.future.empty() && stamp - object.placed_at > kPause;
 }
 
 LastView ViewOf(std::span<const Eigen::Vector3d> points_W, const Pose& T_O_W, Time stamp,

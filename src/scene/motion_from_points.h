@@ -9,8 +9,10 @@
 
 namespace clearway {
 
-// Whether params.motion_from_points applies to the object.
-bool MayBeEstimated(const MovingObject& object, const SceneParams& params);
+// Whether params.motion_from_points applies to points of the object that come at `stamp` without a
+// motion or pose: kAuto does if frames never gave one, or none for longer than sources with
+// keyframes pause. What is stated of it counts first.
+bool MayBeEstimated(const MovingObject& object, Time stamp, const SceneParams& params);
 
 // What the motion of the next view is estimated from. At least one point.
 LastView ViewOf(std::span<const Eigen::Vector3d> points_W, const Pose& T_O_W, Time stamp,

@@ -60,7 +60,7 @@ void AddPoints(MovingObject& object, const LabelledCloud& cloud,
     object.completion = CompletionOf(object, sensor_W.cast<double>());
   }
   object = WithMap(std::move(object), std::move(map_O));
-  if (MayBeEstimated(object, params)) {
+  if (object.bridged || MayBeEstimated(object, stamp, params)) {
     object.last_view = ViewOf(EndsOf(cloud, points), T_O_W, stamp, params);
   }
   object.last_seen = stamp;

@@ -34,12 +34,13 @@ void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& o
   if (from != nullptr) object.velocity_O = VelocityBetween(*from, to);
 }
 
-// A pose that is known tells how the object came there from the last one that was, so what was
-// predicted in between is forgotten. After a longer gap the track is young again: what the object
-// did in between is not known.
+// A pose that is reported tells how the object came there from the last one that was, so what was
+// predicted or estimated in between is forgotten. After a longer gap the track is young again: what
+// the object did in between is not known.
 void ForgetPredictions(Time stamp, MovingObject& object) {
   constexpr Duration kLongGap = std::chrono::seconds(1);
-  if (!object.bridged) return;
+  const bool was_estimated = object.estimated && object.reported;
+  if (!object.bridged && !was_estimated) return;
   const auto predicted =
       std::ranges::upper_bound(object.history, object.placed_at, {}, &StampedPose::stamp);
   object.history.erase(predicted, object.history.end());
@@ -78,7 +79,9 @@ void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingOb
   Remember(object, {stamp, T_W_O}, params.history);
   SceneParams of_track = params;
   of_track.motion = MotionModel::kTrack;
+  const Time reported_at = object.placed_at;
   SetMotion(object, false, of_track);
+  if (object.reported) object.placed_at = reported_at;
   object.estimated = true;
 }
 

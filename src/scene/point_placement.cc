@@ -36,16 +36,16 @@ std::optional<ObjectIssue> PlaceByPoints(const MovingObject& object, const Label
   if (clue.pose != nullptr && object.T_B_O) return {};
   if (object.t_k() >= stamp) return {};  // another frame of that stamp placed it
   const bool from_prediction = motion != nullptr && motion->from > object.t_k();
-  const Time at = from_prediction ? motion->from : stamp;  // how far it is predicted
-  const Time known_until = object.future.empty()
-                               ? object.placed_at
-                               : std::max(object.placed_at, object.LastPose().stamp);
+  const Time at = from_prediction ? motion->from : stamp;           // how far it is predicted
+  const bool is_known = !object.future.empty() || !object.bridged;  // its newest pose
+  const Time known_until =
+      is_known ? std::max(object.placed_at, object.LastPose().stamp) : object.placed_at;
   const bool goes_on = !(object.LastVelocity() == Twist{});
   if (goes_on && at - known_until > params.horizon) {
     return ObjectIssue{ObjectIssueKind::kBridgedTooLong, object.id, ToSeconds(at - known_until),
                        ToSeconds(params.horizon)};
   }
-  const bool is_estimated = motion == nullptr && MayBeEstimated(object, params);
+  const bool is_estimated = motion == nullptr && MayBeEstimated(object, stamp, params);
   const std::vector<Eigen::Vector3d> points_W = EndsOf(cloud, clue.points);
   Pose T_W_O = motion != nullptr ? motion->H_W * StartOf(*motion, object, stamp, params)
                                  : PredictPose(object, stamp, params.horizon).T_W_O;

@@ -13,9 +13,11 @@ using testing_support::At;
 using testing_support::BoxSurface;
 using testing_support::FrameAt;
 
+// What comes without a pose is bridged, however long.
 SceneParams ByTrack() {
   SceneParams params;
   params.motion = MotionModel::kTrack;
+  params.motion_from_points = MotionFromPoints::kOff;
   return params;
 }
 

@@ -146,9 +146,9 @@ struct MovingObject {
   PositionBound bound;
   // The poses of the history from then on came from frames; among earlier ones are predictions.
   Time tracked_since;
-  // Stamp of the newest pose that is not a prediction.
+  // Stamp of the newest pose that is not a prediction, nor an estimate if any was reported.
   Time placed_at;
-  // Whether that one was estimated from points, and whether a frame ever gave a motion or pose.
+  // Whether the last pose was estimated from points; whether a frame ever gave a motion or pose.
   bool estimated = false, reported = false;
   // T_B_O of a source that gives poses, fixed when it first did.
   std::optional<Pose> T_B_O;

@@ -32,7 +32,7 @@ enum class MotionModel {
 // For which objects a motion is estimated when a frame gives points of them, but neither a motion
 // nor a pose: the points are registered to the object's own map. z of W must point up.
 enum class MotionFromPoints {
-  kAuto = 0,  // those of which no frame has given a motion or pose
+  kAuto = 0,  // those of which no frame has given a motion or pose, or none for 0.6 s
   kOn = 1,    // all
   kOff = 2,   // none: they are where they are predicted
 };
