@@ -17,6 +17,7 @@
 #include "clearway/base/file.h"
 #include "clearway/report/object_sheet.h"
 #include "clearway/report/top_view.h"
+#include "cli/left_out_text.h"
 #include "cli/svg_plot.h"
 
 namespace clearway::cli {
@@ -120,6 +121,7 @@ absl::Status WritePage(const std::string& file, const TrueSource& source, const 
   const auto pictures = PicturesOf(file, source, found);
   if (!pictures.ok()) return pictures.status();
   std::ostringstream tables;
+  tables << LeftOutText(*source.frames.left_out);
   PrintText(tables, source, found);
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << kBegin << Escaped(source.frames.description)

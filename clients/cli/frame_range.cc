@@ -18,7 +18,9 @@ std::string Name(const FrameBound& bound) {
 // The frames of one source, by number and by time. Stamps are read with their frames.
 class Frames {
  public:
-  Frames(const std::string& spec, const FrameSource& source) : spec_(spec), source_(source) {}
+  // At least one frame.
+  Frames(const std::string& spec, const FrameSource& source)
+      : spec_(spec), source_(source), first_(StampOf(0)) {}
 
   // The first frame not before the bound; frame_count if all are.
   std::size_t FirstFrom(const FrameBound& bound) {
@@ -34,8 +36,14 @@ class Frames {
     return Bisect([offset](Duration at) { return at <= offset; });
   }
 
-  // That no time is known.
-  absl::Status Error() { return TimeOf(0) == kUnread ? first_error_ : absl::OkStatus(); }
+  // That frame 0, from which seconds count, cannot be read.
+  absl::Status Error() const {
+    if (first_.ok()) return absl::OkStatus();
+    return InContext(
+        "seconds of --from and --to count from frame 0, which cannot be read; give numbers of "
+        "frames instead",
+        first_.status());
+  }
 
   absl::Status Refused(const std::string& why) {
     std::string text = absl::StrCat(why, "; ", spec_, " ends at frame ", source_.frame_count - 1);
@@ -47,28 +55,21 @@ class Frames {
  private:
   static constexpr Duration kUnread = Duration::max();
 
-  // After the first frame that can be read. One that cannot be read is just before the next that
-  // can, and kUnread if there is none: what to do about such frames is not for the range to say.
-  Duration TimeOf(std::size_t k) {
-    if (!first_) first_ = NextFrom(0).stamp;
-    const Next next = NextFrom(k);
-    if (!next.stamp) return kUnread;
-    return *next.stamp - *first_ - Duration(next.frame == k ? 0 : 1);
+  absl::StatusOr<Time> StampOf(std::size_t k) const {
+    const auto frame = source_.read(k);
+    if (!frame.ok()) return frame.status();
+    return frame->stamp;
   }
 
-  struct Next {
-    std::size_t frame = 0;
-    std::optional<Time> stamp;  // none if there is none
-  };
-
-  // The next frame from k on that can be read.
-  Next NextFrom(std::size_t k) {
-    for (; k < source_.frame_count; ++k) {
-      const auto frame = source_.read(k);
-      if (frame.ok()) return {k, frame->stamp};
-      if (k == 0) first_error_ = frame.status();
+  // After frame 0. A frame that cannot be read is just before the next that can, and kUnread if
+  // there is none, or if frame 0 cannot: what to do about such frames is not for the range to say.
+  Duration TimeOf(std::size_t k) const {
+    if (!first_.ok()) return kUnread;
+    for (std::size_t next = k; next < source_.frame_count; ++next) {
+      const auto stamp = StampOf(next);
+      if (stamp.ok()) return *stamp - *first_ - Duration(next == k ? 0 : 1);
     }
-    return {};
+    return kUnread;
   }
 
   // The first frame for which `before` does not hold.
@@ -84,8 +85,7 @@ class Frames {
 
   const std::string& spec_;
   const FrameSource& source_;
-  absl::Status first_error_;   // of frame 0, if it cannot be read
-  std::optional<Time> first_;  // stamp of the first frame that can be read, once it was
+  absl::StatusOr<Time> first_;  // stamp of frame 0
 };
 
 }  // namespace

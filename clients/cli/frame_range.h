@@ -32,7 +32,8 @@ struct FrameRange {
 
 // The frames that the flags ask for. Stamps are looked up by bisection, so `source` must hold them
 // in ascending order. A usage error, with the range that the source has, if they ask for frames
-// beyond it or for none; FAILED_PRECONDITION if the source, named `spec`, is empty.
+// beyond it or for none; FAILED_PRECONDITION if the source, named `spec`, is empty. Seconds need
+// frame 0: if it cannot be read, that is the error.
 absl::StatusOr<FrameRange> FramesIn(const FrameRangeFlags& flags, const std::string& spec,
                                     const FrameSource& source);
 

@@ -7,6 +7,7 @@
 #include "clearway/io/lidar_folder.h"
 #include "clearway/report/table.h"
 #include "cli/file_info.h"
+#include "cli/frame_reader.h"
 #include "cli/left_out_text.h"
 #include "cli/text.h"
 
@@ -39,7 +40,8 @@ std::map<ObjectId, Track> TracksOf(const std::vector<RecordedBox>& boxes) {
 }
 
 struct PointCount {
-  std::size_t scans = 0;  // frames with points
+  std::size_t frames = 0;  // that can be read
+  std::size_t scans = 0;   // of them, those with points
   std::uint64_t points = 0;
   std::uint64_t not_finite = 0;  // of these
   std::set<ObjectId> labels;     // of objects
@@ -47,15 +49,18 @@ struct PointCount {
 
 absl::StatusOr<PointCount> CountPoints(const FrameSource& frames) {
   PointCount count;
+  FrameReader reader(frames, /*keep_going=*/true);
   for (std::size_t i = 0; i < frames.frame_count; ++i) {
-    const auto frame = frames.read(i);
-    if (!frame.ok()) return frame.status();
+    const std::optional<Frame> frame = reader.Read(i);
+    if (!frame) continue;
+    ++count.frames;
     count.scans += frame->points_S.empty() ? 0 : 1;
     count.points += frame->points_S.size();
     count.labels.insert(frame->labels.begin(), frame->labels.end());
     count.not_finite += static_cast<std::uint64_t>(std::ranges::count_if(
         frame->points_S, [](const Eigen::Vector3f& p) { return !p.allFinite(); }));
   }
+  if (count.frames == 0 && frames.frame_count > 0) return reader.Result();
   count.labels.erase(count.labels.begin(), count.labels.upper_bound(kStaticLabel));
   return count;
 }

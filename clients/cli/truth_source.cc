@@ -29,16 +29,21 @@ TrueSource OfFolder(LidarFolder folder) {
   return source;
 }
 
-// Reads every frame once: what comes later is the truth of what is predicted before.
+// Reads every frame once: what comes later is the truth of what is predicted before. A frame that
+// cannot be read tells nothing; whether that matters is found when it is evaluated.
 absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlags& flags) {
   auto frames = OpenSource(spec, flags);
   if (!frames.ok()) return frames.status();
   LidarFolder told;
   told.frames = *std::move(frames);
   SourceContent content;
+  absl::Status unread;  // the first
   for (std::size_t k = 0; k < told.frames.frame_count; ++k) {
     const auto frame = told.frames.read(k);
-    if (!frame.ok()) return frame.status();
+    if (!frame.ok()) {
+      unread.Update(frame.status());
+      continue;
+    }
     content.has_parts |= !frame->parts.empty();
     content.objects.insert(frame->labels.begin(), frame->labels.end());
     const int number = static_cast<int>(k);
@@ -47,6 +52,7 @@ absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlag
       told.boxes.push_back({number, pose.id, "", Eigen::Vector3d::Zero(), pose.T_W_B, -1});
     }
   }
+  if (told.poses.empty() && !unread.ok()) return unread;
   content.objects.erase(content.objects.begin(), content.objects.upper_bound(kStaticLabel));
   if (auto status = CheckSourceContent(flags, spec, content); !status.ok()) return status;
   if (told.boxes.empty()) {

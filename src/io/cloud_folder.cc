@@ -111,6 +111,18 @@ absl::Status Fill(const Path& path, const std::string& label_field, Frame& frame
   return CheckInSensorFrame(path, frame.points_S);
 }
 
+// The first that can be read, or why the first cannot: whether others can is for who reads them.
+absl::StatusOr<CloudPoints> FirstCloud(const std::map<int, Path>& clouds,
+                                       const std::string& label_field) {
+  absl::Status why;
+  for (const auto& [frame, path] : clouds) {
+    absl::StatusOr<CloudPoints> cloud = ReadCloud(path, label_field);
+    if (cloud.ok()) return cloud;
+    why.Update(cloud.status());
+  }
+  return why;
+}
+
 std::string Described(const std::string& name, const PosedClouds& posed, const Path& table_path,
                       const CloudPoints& first, const std::string& label_field) {
   std::string text =
@@ -149,7 +161,7 @@ absl::StatusOr<LidarFolder> OpenCloudFolder(const Path& given, const CloudFolder
   if (!named.ok()) return named.status();
   auto posed = PoseClouds(*named, *table, *table_path, folder, *scans.left_out);
   if (!posed.ok()) return posed.status();
-  const auto first = ReadCloud(posed->clouds.begin()->second, options.label_field);
+  const auto first = FirstCloud(posed->clouds, options.label_field);
   if (!first.ok()) return first.status();
 
   scans.name = absl::StrCat("point clouds ", folders.front().string());

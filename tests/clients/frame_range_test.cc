@@ -78,19 +78,26 @@ TEST(FrameRange, WithoutAFrameIsRefused) {
   ExpectRefused("3s", "2", "no frame lies between --from 3.0 s and --to 2");
 }
 
-TEST(FrameRange, IfNoFrameCanBeReadThatIsTheError) {
+TEST(FrameRange, SecondsNeedTheFrameThatTheyCountFrom) {
   FrameSource broken = TenFrames();
-  broken.read = [](std::size_t) { return absl::DataLossError("damaged"); };
+  broken.read = [whole = broken.read](std::size_t k) {
+    return k == 0 ? absl::DataLossError("damaged") : whole(k);
+  };
   FrameRangeFlags flags;
   flags.from = FrameBound(Duration(std::chrono::seconds(1)));
-  EXPECT_EQ(FramesIn(flags, "drive", broken).status(), absl::DataLossError("damaged"));
+  const absl::Status dut = FramesIn(flags, "drive", broken).status();
+  EXPECT_EQ(dut.code(), absl::StatusCode::kDataLoss);
+  EXPECT_THAT(dut.message(), HasSubstr("count from frame 0, which cannot be read"));
+  EXPECT_THAT(dut.message(), HasSubstr("damaged"));
+  flags.from = FrameBound(std::size_t{2});
+  EXPECT_EQ(FramesIn(flags, "drive", broken)->first, 2u);
 }
 
 // Such a frame is in the range unless the next one shows that it is before it.
 TEST(FrameRange, FramesThatCannotBeReadDoNotHideTheOthers) {
   FrameSource broken = TenFrames();
   broken.read = [whole = broken.read](std::size_t k) {
-    return k == 0 || k == 4 || k == 9 ? absl::DataLossError("damaged") : whole(k);
+    return k == 4 || k == 9 ? absl::DataLossError("damaged") : whole(k);
   };
   const auto range = [&](const char* from, const char* to) {
     FrameRangeFlags flags;
@@ -100,11 +107,10 @@ TEST(FrameRange, FramesThatCannotBeReadDoNotHideTheOthers) {
     EXPECT_TRUE(dut.ok()) << dut.status();
     return dut.ok() ? std::pair(dut->first, dut->end) : std::pair<std::size_t, std::size_t>();
   };
-  // Seconds count from frame 1, the first that can be read.
-  EXPECT_EQ(range("2s", "3s"), std::pair(std::size_t{5}, std::size_t{8}));
-  EXPECT_EQ(range("1.9s", "3s"), std::pair(std::size_t{4}, std::size_t{8}));
-  EXPECT_EQ(range("1s", "1.4s"), std::pair(std::size_t{3}, std::size_t{4}));
-  EXPECT_EQ(range("1s", "9"), std::pair(std::size_t{3}, std::size_t{10}));
+  EXPECT_EQ(range("2.5s", "3.5s"), std::pair(std::size_t{5}, std::size_t{8}));
+  EXPECT_EQ(range("2.4s", "3.5s"), std::pair(std::size_t{4}, std::size_t{8}));
+  EXPECT_EQ(range("1.5s", "1.9s"), std::pair(std::size_t{3}, std::size_t{4}));
+  EXPECT_EQ(range("1.5s", "9"), std::pair(std::size_t{3}, std::size_t{10}));
 }
 
 TEST(ParseFrameBound, RefusesWhatIsNeither) {

@@ -9,6 +9,8 @@
 
 #include "clients/cli_server.h"
 #include "io/lidar_example.h"
+#include "io/pcd_example.h"
+#include "io/recording_example.h"
 
 namespace clearway {
 namespace {
@@ -86,6 +88,44 @@ TEST(KeepGoing, EvaluateLeavesOutWhatCannotBeRead) {
     EXPECT_THAT(dut.err, HasSubstr("1 frame of the input is left out"));
     EXPECT_EQ(json::parse(dut.out)["frames"], 2);
   }
+}
+
+TEST(KeepGoing, EvaluateLeavesOutDamagedFramesOfARecording) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "drive.cwr", page = folder / "page.html";
+  RunClearway({"simulate", "small", "--out", recording, "--frames", "12", "--objects", "poses"});
+  ChangeDatabase(recording, "UPDATE frame SET stamp_ns = stamp_ns + 1 WHERE number = 3");
+  EXPECT_EQ(RunClearway({"evaluate", recording}).exit_code, 1);
+  EXPECT_EQ(RunClearway({"evaluate", recording, "--from", "5"}).exit_code, 0);
+  const Finished dut =
+      RunClearway({"evaluate", recording, "--keep-going", "--json", "--html", page});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_THAT(dut.err, HasSubstr("1 frame could not be read, the first: frame 3"));
+  EXPECT_EQ(json::parse(dut.out)["frames"], 11);
+  EXPECT_THAT(BytesOf(page), HasSubstr("1 frame of the input is left out"));
+}
+
+TEST(KeepGoing, InfoNamesWhatCannotBeRead) {
+  const TemporaryFolder folder;
+  const Finished dut = RunClearway({"info", WriteCutExample(folder), "--json"});
+  EXPECT_EQ(dut.exit_code, 0) << dut.err;
+  const json info = json::parse(dut.out);
+  EXPECT_EQ(info["frames"], 3);
+  EXPECT_THAT(info["left_out"]["reasons"].dump(), HasSubstr("(frame 1, counted from 0)"));
+}
+
+// Of clouds, the first tells which fields there are.
+TEST(KeepGoing, TheFirstCloudMayBeCutOff) {
+  const TemporaryFolder folder;
+  for (const char* name : {"0.pcd", "1.pcd"}) folder.Write(name, AsciiPcd({{5, 1, 0, 0, 0}}));
+  folder.Write("poses.txt", "1.0 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n");
+  const std::string out = folder / "drive.cwr";
+  EXPECT_EQ(RunClearway({"record", folder.path(), "--out", out}).exit_code, 0);
+  folder.Write("0.pcd", "");
+  const Finished dut =
+      RunClearway({"record", folder.path(), "--out", out, "--force", "--keep-going", "--json"});
+  EXPECT_EQ(dut.exit_code, 1);
+  EXPECT_EQ(json::parse(dut.out)["frames"], 1) << dut.err;
 }
 
 TEST(KeepGoing, NothingComesOfFramesOfWhichNoneCanBeRead) {
