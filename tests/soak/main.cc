@@ -36,8 +36,8 @@ struct Memory {
 
 std::vector<std::string> ServerFlags() {
   // The answers that are remembered for repeated frames reach their limit in the warm-up: they are
-  // no leak.
-  return {"--limits-max-remembered-answers", "1000"};
+  // no leak. Without its motions the bridged object would be estimated.
+  return {"--limits-max-remembered-answers", "1000", "--scene-motion-from-points", "off"};
 }
 
 absl::StatusOr<std::vector<Frame>> ReadAll(const std::string& spec) {

@@ -60,7 +60,9 @@ TEST(LoopedFrames, GoOnWithNewIds) {
 TEST(BridgedObject, IsWhereItIsPredictedWithoutMotions) {
   BridgedObject dut({0, 0, 6});
   ThreadPool pool(1);
-  SceneBuilder builder(SceneParams{}, {}, pool);
+  SceneParams params;
+  params.motion_from_points = MotionFromPoints::kOff;
+  SceneBuilder builder(params, {}, pool);
   for (int k = 0; k < 200; ++k) {
     const Frame frame = dut.At(Time() + k * FromSeconds(0.1));
     EXPECT_EQ(frame.motions.empty(), k == 0 || k >= 5);
@@ -69,6 +71,7 @@ TEST(BridgedObject, IsWhereItIsPredictedWithoutMotions) {
   const ScenePtr scene = builder.Publish();
   const MovingObject* object = scene->FindObject(BridgedObject::kId);
   ASSERT_NE(object, nullptr);
+  EXPECT_TRUE(object->bridged);
   EXPECT_LT(object->observed_box_O.Size().maxCoeff(), 2) << "the model was smeared";
 }
 
