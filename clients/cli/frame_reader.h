@@ -28,8 +28,8 @@ class FrameReader {
   std::optional<Frame> Read(std::size_t index);
   bool stopped() const { return unread_ > 0 && !keep_going_; }
 
-  // OK if every frame could be read. `so_far`, if it is not empty, tells what a command that has
-  // stopped has done until then: "; 3 frames were sent".
+  // OK if every frame could be read. Else an error that names the first one that could not. If the
+  // command stopped there, `so_far` says what it had done: "; 3 frames were sent".
   absl::Status Result(const std::string& so_far = "") const;
 
  private:

@@ -29,8 +29,8 @@ TrueSource OfFolder(LidarFolder folder) {
   return source;
 }
 
-// Reads every frame once: what comes later is the truth of what is predicted before. A frame that
-// cannot be read tells nothing; whether that matters is found when it is evaluated.
+// Reads every frame once: what comes later is the truth of what is predicted before. Skips frames
+// that cannot be read: the evaluation stops at them or leaves them out.
 absl::StatusOr<TrueSource> OfRecording(const std::string& spec, const SourceFlags& flags) {
   auto frames = OpenSource(spec, flags);
   if (!frames.ok()) return frames.status();

@@ -34,8 +34,8 @@ void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& o
   if (from != nullptr) object.velocity_O = VelocityBetween(*from, to);
 }
 
-// A pose that is reported tells how the object came there from the last one that was, so what was
-// predicted or estimated in between is forgotten. After a longer gap the track is young again: what
+// The motion between two reported poses is known from these two alone, so what was predicted or
+// estimated in between is forgotten. After a longer gap the track is young again: what
 // the object did in between is not known.
 void ForgetPredictions(Time stamp, MovingObject& object) {
   constexpr Duration kLongGap = std::chrono::seconds(1);

@@ -114,7 +114,7 @@ TEST(KeepGoing, InfoNamesWhatCannotBeRead) {
   EXPECT_THAT(info["left_out"]["reasons"].dump(), HasSubstr("(frame 1, counted from 0)"));
 }
 
-// Of clouds, the first tells which fields there are.
+// The reader takes the field names from the first cloud that it can read.
 TEST(KeepGoing, TheFirstCloudMayBeCutOff) {
   const TemporaryFolder folder;
   for (const char* name : {"0.pcd", "1.pcd"}) folder.Write(name, AsciiPcd({{5, 1, 0, 0, 0}}));
