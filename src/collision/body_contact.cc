@@ -31,20 +31,23 @@ struct SeenFromG {
   }
 };
 
-// The surface of a mesh against a convex body, in the mesh's frame G, in which it moves by way_F.
+// The surface of a mesh against a convex body, in the mesh's frame G, in which it moves by way_F
+// and spreads.
 class SurfaceContact {
  public:
   SurfaceContact(const PlacedShape& shape_F, const Eigen::Vector3d& way_F, const ConvexBody& body_F,
-                 double margin_m)
+                 double margin_m, const Spread& spread_F)
       : mesh_(*shape_F.AsMesh()),
         way_G_(shape_F.R_F_G().transpose() * way_F),
         farthest_G_{shape_F, body_F},
         body_G_{farthest_G_, shape_F.ToG(body_F.center)},
-        margin_m_(margin_m) {
+        margin_m_(margin_m),
+        spread_G_(spread_F.Turned(shape_F.R_F_G().transpose())) {
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
-      around_G_.max[axis] = farthest_G_(along)[axis] + margin_m + kTouching_m;
-      around_G_.min[axis] = farthest_G_(-along)[axis] - margin_m - kTouching_m;
+      const double reach_m = margin_m + spread_G_.half_m()[axis] + kTouching_m;
+      around_G_.max[axis] = farthest_G_(along)[axis] + reach_m;
+      around_G_.min[axis] = farthest_G_(-along)[axis] - reach_m;
     }
   }
   SurfaceContact(const SurfaceContact&) = delete;
@@ -86,11 +89,13 @@ class SurfaceContact {
     const auto farthest = [&](const Eigen::Vector3d& direction) -> Eigen::Vector3d {
       return node.center_G + (direction.array() > 0).select(node.half_m, -node.half_m);
     };
-    return FirstTouchOf({farthest, node.center_G}, way_G_, body_G_, margin_m_, entered, until);
+    return FirstTouchOf({farthest, node.center_G}, way_G_, body_G_, margin_m_, spread_G_, entered,
+                        until);
   }
 
   double OfTriangle(const Triangle& triangle, double from, double until) const {
-    return FirstTouchOf({Corners{triangle}, triangle.a}, way_G_, body_G_, margin_m_, from, until);
+    return FirstTouchOf({Corners{triangle}, triangle.a}, way_G_, body_G_, margin_m_, spread_G_,
+                        from, until);
   }
 
   // The box round the body is entered on all axes, and left on none.
@@ -114,7 +119,8 @@ class SurfaceContact {
   SeenFromG farthest_G_;
   ConvexBody body_G_;  // refers to it
   double margin_m_;
-  Aabb around_G_;  // the body, the margin and what touches
+  Spread spread_G_;
+  Aabb around_G_;  // the body and all that touches it
 };
 
 }  // namespace
@@ -129,7 +135,7 @@ std::optional<bool> Meets(const PlacedShape& shape_F, const ConvexBody& body_F, 
   if (geometry.convex()) {
     return apart.at_most_m <= beyond_core_m ? std::optional(true) : std::nullopt;
   }
-  const SurfaceContact surface(shape_F, Eigen::Vector3d::Zero(), body_F, margin_m);
+  const SurfaceContact surface(shape_F, Eigen::Vector3d::Zero(), body_F, margin_m, {});
   return surface.HoldsBody(0) ? true : surface.Meets();
 }
 
@@ -138,16 +144,10 @@ double FirstTouchOf(const Sweep& sweep, const ConvexBody& body_F, double beyond_
   const PlacedShape& shape_F = sweep.shape_F;
   const ShapeGeometry& geometry = shape_F.geometry();
   const double margin_m = sweep.margin_m + beyond_m + geometry.core_radius_m();
-  // To spread the shape is to spread the body: what spreads is its own mirror image.
-  const auto farthest_F = [&](const Eigen::Vector3d& direction_F) -> Eigen::Vector3d {
-    return body_F.farthest(direction_F) + sweep.spread_F.Farthest(direction_F);
-  };
-  const ConvexBody spread_body_F = {
-      sweep.spread_F.empty() ? body_F.farthest : FarthestPoint(farthest_F), body_F.center};
-  const double share = FirstTouchOf({CoreOf{shape_F}, shape_F.Center_F()}, sweep.way_F,
-                                    spread_body_F, margin_m, from, until);
+  const double share = FirstTouchOf({CoreOf{shape_F}, shape_F.Center_F()}, sweep.way_F, body_F,
+                                    margin_m, sweep.spread_F, from, until);
   if (share == kNever || geometry.convex() || !geometry.prepared()->closed()) return share;
-  const SurfaceContact surface(shape_F, sweep.way_F, spread_body_F, margin_m);
+  const SurfaceContact surface(shape_F, sweep.way_F, body_F, margin_m, sweep.spread_F);
   return surface.HoldsBody(share) ? share : surface.FirstTouch(share, until);
 }
 

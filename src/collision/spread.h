@@ -18,7 +18,17 @@ class Spread {
   };
 
   void Add(const Eigen::Vector3d& axis, double radius_m) {
-    if (radius_m != 0) discs_[count_++] = {axis, radius_m};
+    if (radius_m == 0) return;
+    discs_[count_++] = {axis, radius_m};
+    radius_m_ += radius_m;
+    for (int i = 0; i < 3; ++i) {
+      half_m_[i] += radius_m * Eigen::Vector3d::Unit(i).cross(axis).norm();
+    }
+  }
+  Spread Turned(const Eigen::Matrix3d& rotation) const {
+    Spread turned;
+    for (const auto& [axis, radius_m] : discs()) turned.Add(rotation * axis, radius_m);
+    return turned;
   }
   bool empty() const { return count_ == 0; }
   std::span<const Disc> discs() const { return {discs_.data(), count_}; }
@@ -29,24 +39,14 @@ class Spread {
     for (const Disc& disc : discs()) reach_m += disc.radius_m * direction.cross(disc.axis).norm();
     return reach_m;
   }
-  // The point of it that is farthest in a direction.
-  Eigen::Vector3d Farthest(const Eigen::Vector3d& direction) const {
-    Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
-    for (const Disc& disc : discs()) {
-      farthest += disc.radius_m * disc.axis.cross(direction.cross(disc.axis)).normalized();
-    }
-    return farthest;
-  }
-  // Of a ball that holds it.
-  double radius_m() const {
-    double radius_m = 0;
-    for (const Disc& disc : discs()) radius_m += disc.radius_m;
-    return radius_m;
-  }
+  double radius_m() const { return radius_m_; }              // of a ball that holds it
+  const Eigen::Vector3d& half_m() const { return half_m_; }  // of the smallest box round it
 
  private:
   std::array<Disc, 2> discs_;
   std::size_t count_ = 0;
+  double radius_m_ = 0;
+  Eigen::Vector3d half_m_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace clearway

@@ -27,13 +27,8 @@ struct Sweep {
   double LargestMargin() const { return margin_m + spread_F.radius_m(); }
   // Around the shape where it begins.
   Aabb BoxAtStart() const {
-    Aabb box = shape_F.box_F().Padded(margin_m);
-    for (int axis = 0; axis < 3 && !spread_F.empty(); ++axis) {
-      const double reach_m = spread_F.Along(Eigen::Vector3d::Unit(axis));
-      box.min[axis] -= reach_m;
-      box.max[axis] += reach_m;
-    }
-    return box;
+    const Aabb box = shape_F.box_F().Padded(margin_m);
+    return {box.min - spread_F.half_m(), box.max + spread_F.half_m()};
   }
   // Around all of it and what it touches.
   Aabb Box() const {

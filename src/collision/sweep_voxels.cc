@@ -21,14 +21,12 @@ class Search {
         contact_(sweep.shape_F, 0),
         directions_(contact_.Apart(Eigen::Vector3d::Zero(), 0).has_value()),
         length_m_(sweep.way_F.norm()),
-        until_(until) {
-    for (const auto& [axis, radius_m] : sweep.spread_F.discs()) AddDirection(axis);
-  }
+        until_(until) {}
 
   // Before which share none of the block's voxels is touched; kNever if none is before what is
   // found so far.
-  double BlockTouched(BlockKey block) const { return CubeTouched(VoxelAt(block, 0), kBlockSize); }
-  bool Misses(BlockKey block) const { return BlockTouched(block) == kNever; }
+  double BlockTouched(BlockKey block) { return CubeTouched(VoxelAt(block, 0), kBlockSize); }
+  bool Misses(BlockKey block) { return BlockTouched(block) == kNever; }
 
   // Looks at the voxels that are marked.
   void Look(BlockKey block, const BlockMask& voxels) {
@@ -60,7 +58,7 @@ class Search {
     }
   }
 
-  double CubeTouched(VoxelKey corner, int edge) const {
+  double CubeTouched(VoxelKey corner, int edge) {
     const double half_m = 0.5 * edge * grid_.resolution_m();
     const Eigen::Vector3d center =
         grid_.resolution_m() * Eigen::Vector3d(corner.x, corner.y, corner.z) +
@@ -74,18 +72,10 @@ class Search {
     double reach_m;
   };
 
-  // The axis of a turn, along which the turn moves nothing, both ways.
-  void AddDirection(const Eigen::Vector3d& axis) {
-    const PlacedShape& shape = sweep_.shape_F;
-    for (const Eigen::Vector3d& direction : {axis, Eigen::Vector3d(-axis)}) {
-      along_axes_.push_back({direction, direction.dot(shape.FarthestOfCore(direction)) +
-                                            shape.geometry().core_radius_m() +
-                                            sweep_.spread_F.Along(direction)});
-    }
-  }
-
-  // Along which of the axes the cube is farthest beyond the shape.
-  Separation ApartAlongAxes(const Eigen::Vector3d& center, double half_m) const {
+  // Along which of the axes about which the shape turns, where the turn moves nothing, the cube is
+  // farthest beyond the shape.
+  Separation ApartAlongAxes(const Eigen::Vector3d& center, double half_m) {
+    if (along_axes_.empty()) AddAxes();
     Separation best;
     for (const auto& [direction, reach_m] : along_axes_) {
       const double gap_m = direction.dot(center) - half_m * direction.cwiseAbs().sum() - reach_m;
@@ -94,22 +84,42 @@ class Search {
     return best;
   }
 
-  Separation Apart(const Eigen::Vector3d& center, double half_m) const {
+  // Both ways.
+  void AddAxes() {
+    const PlacedShape& shape = sweep_.shape_F;
+    for (const auto& [axis, radius_m] : sweep_.spread_F.discs()) {
+      for (const Eigen::Vector3d& direction : {axis, Eigen::Vector3d(-axis)}) {
+        along_axes_.push_back({direction, direction.dot(shape.FarthestOfCore(direction)) +
+                                              shape.geometry().core_radius_m() +
+                                              sweep_.spread_F.Along(direction)});
+      }
+    }
+  }
+
+  // Less what the shape spreads, with `left` of its way to go.
+  Separation Apart(const Eigen::Vector3d& center, double half_m, double left) {
     Separation apart = *contact_.Apart(center, half_m);
+    if (sweep_.spread_F.empty()) return apart;
+    const double far_m = apart.gap_m - sweep_.spread_F.radius_m();  // however it spreads
+    const double used_m = std::max(0.0, left * apart.direction.dot(sweep_.way_F));
+    if (far_m - sweep_.margin_m - kKept_m > used_m) {
+      apart.gap_m = far_m;
+      return apart;
+    }
     apart.gap_m -= sweep_.spread_F.Along(apart.direction);
-    if (along_axes_.empty() || apart.gap_m - sweep_.margin_m > kTouching_m) return apart;
+    if (apart.gap_m - sweep_.margin_m > kTouching_m) return apart;
     const Separation along = ApartAlongAxes(center, half_m);
     return along.gap_m > apart.gap_m ? along : apart;
   }
 
   // By what is quick.
-  double Touched(const Eigen::Vector3d& center, double half_m) const {
+  double Touched(const Eigen::Vector3d& center, double half_m) {
     if (directions_) {
       return AdvanceAlong(sweep_.way_F, sweep_.margin_m, 0, until_, [&](double share) {
-        return Apart(center - share * sweep_.way_F, half_m);
+        return Apart(center - share * sweep_.way_F, half_m, until_ - share);
       });
     }
-    if (!along_axes_.empty()) {
+    if (!sweep_.spread_F.empty()) {
       const Separation along = ApartAlongAxes(center, half_m);
       const double used_m = std::max(0.0, until_ * along.direction.dot(sweep_.way_F));
       if (along.gap_m - sweep_.margin_m - kKept_m > used_m) return kNever;

@@ -93,9 +93,11 @@ TEST_F(CarlaScans, EvaluateJudgesByActors) {
 
 TEST_F(CarlaScans, ErrorsNameTheLine) {
   folder_.Write("000400.ply", "ply\nformat ascii 2.0\nend_header\n");
-  const Finished dut = RunClearway({"info", path()});
+  const char* const line = "000400.ply, line 2: format ascii";
+  const Finished dut = RunClearway({"evaluate", path()});
   EXPECT_NE(dut.exit_code, 0);
-  EXPECT_THAT(dut.err, HasSubstr("000400.ply, line 2: format ascii"));
+  EXPECT_THAT(dut.err, HasSubstr(line));
+  EXPECT_THAT(RunClearway({"info", path()}).out, HasSubstr(line));
 }
 
 }  // namespace

@@ -148,18 +148,45 @@ TEST(BoundOfTurn, HoldsForTurnsAboutAnyAxis) {
   }
 }
 
+// The point of a disc that is farthest in a direction, by its rim.
+Eigen::Vector3d Farthest(const Spread::Disc& disc, const Eigen::Vector3d& direction) {
+  constexpr int kSteps = 4096;
+  const Eigen::Vector3d out = disc.radius_m * disc.axis.unitOrthogonal();
+  Eigen::Vector3d farthest = out;
+  for (int i = 1; i < kSteps; ++i) {
+    const Eigen::Vector3d p = Eigen::AngleAxisd(2 * EIGEN_PI * i / kSteps, disc.axis) * out;
+    if (direction.dot(p) > direction.dot(farthest)) farthest = p;
+  }
+  return farthest;
+}
+
 TEST(Spread, ReachesAsFarAsItsFarthestPoint) {
   Random random(5);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 200; ++i) {
     Spread dut;
     dut.Add(random.UnitVector(), random.Uniform(0, 1));
     if (i % 2 == 0) dut.Add(random.UnitVector(), random.Uniform(0, 1));
-    // Along an axis and next to it rounding must not turn a point out of the disc.
-    const Eigen::Vector3d direction =
-        i % 3 == 0 ? random.UnitVector()
-                   : (dut.discs()[0].axis + (i % 3 - 1) * 1e-15 * random.UnitVector()).normalized();
-    EXPECT_NEAR(direction.dot(dut.Farthest(direction)), dut.Along(direction), 1e-12);
-    EXPECT_LE(dut.Along(direction), dut.radius_m() + 1e-12);
+    const Eigen::Vector3d direction = i % 3 == 0 ? random.UnitVector() : dut.discs()[0].axis;
+    Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
+    for (const Spread::Disc& disc : dut.discs()) farthest += Farthest(disc, direction);
+    EXPECT_NEAR(direction.dot(farthest), dut.Along(direction), 1e-5);
+    EXPECT_LE(farthest.norm(), dut.radius_m() + 1e-12);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(dut.half_m()[axis], dut.Along(Eigen::Vector3d::Unit(axis)), 1e-12);
+    }
+    const Eigen::Quaterniond turn = random.AnyPose(1).rotation;
+    EXPECT_NEAR(dut.Turned(turn.toRotationMatrix()).Along(turn * direction), dut.Along(direction),
+                1e-12);
+  }
+}
+
+// What is small is exact: a turn about a surface's normal takes no point nearer to it.
+TEST(Spread, ReachesNowhereAlongItsAxis) {
+  Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    Spread dut;
+    dut.Add(random.UnitVector(), random.Uniform(0, 1));
+    EXPECT_LE(dut.Along(dut.discs()[0].axis), 1e-16);
   }
 }
 
