@@ -30,12 +30,13 @@ bool IsCloud(const Path& path) {
   return extension == ".pcd" || extension == ".ply";
 }
 
+// Without what is hidden: other systems put files like ._1.pcd beside 1.pcd.
 std::vector<Path> EntriesOf(const Path& folder) {
   std::vector<Path> entries;
   std::error_code error;
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-    entries.push_back(entry->path());
+    if (!entry->path().filename().string().starts_with('.')) entries.push_back(entry->path());
   }
   std::ranges::sort(entries);
   return entries;

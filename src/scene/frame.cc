@@ -1,5 +1,6 @@
 #include "clearway/scene/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -69,13 +70,13 @@ absl::Status CheckParts(const Frame& frame, const FrameLimits& limits) {
 }
 
 absl::Status CheckLabels(const Frame& frame) {
-  for (std::size_t i = 0; i < frame.labels.size(); ++i) {
-    if (frame.labels[i] < kIgnoreLabel) {
-      return Invalid(absl::StrCat("labels[", i, "]"),
-                     absl::StrCat("is ", frame.labels[i], "; the lowest label is -1"));
-    }
-  }
-  return absl::OkStatus();
+  ObjectId lowest = kIgnoreLabel;
+  for (const ObjectId label : frame.labels) lowest = std::min(lowest, label);
+  if (lowest == kIgnoreLabel) return absl::OkStatus();
+  const auto first =
+      std::ranges::find_if(frame.labels, [](ObjectId l) { return l < kIgnoreLabel; });
+  return Invalid(absl::StrCat("labels[", first - frame.labels.begin(), "]"),
+                 absl::StrCat("is ", *first, "; the lowest label is -1"));
 }
 
 absl::Status CheckId(const std::string& field, ObjectId id, absl::flat_hash_set<ObjectId>& seen) {

@@ -18,8 +18,13 @@ Interval SpreadOf(std::span<const Eigen::Vector3d> points, int axis) {
   values.reserve(points.size());
   for (const Eigen::Vector3d& p : points) values.push_back(p[axis]);
   const std::size_t skipped = values.size() < kMany ? 0 : values.size() / 20;
-  std::ranges::sort(values);
-  return {values[skipped], values[values.size() - 1 - skipped]};
+  const auto nth = [&](std::size_t n) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(n);
+    std::ranges::nth_element(values, place);
+    return *place;
+  };
+  const double min = nth(skipped);
+  return {min, nth(values.size() - 1 - skipped)};
 }
 
 // By how much `box` has to move to hold `points`, or to be held by them.

@@ -79,6 +79,14 @@ TEST_F(CloudFolder, NumbersAreRowsOfTheTable) {
   EXPECT_THAT(dut->frames.read(1)->labels, ElementsAre(0));
 }
 
+TEST_F(CloudFolder, HiddenFilesAreNoClouds) {
+  folder_.Write("poses.txt", kTum);
+  folder_.Write("._000000.pcd", "of another system");
+  EXPECT_FALSE(IsCloudFolder(folder_.path()));
+  WriteClouds({"000000.pcd", "000001.pcd", "000002.pcd"});
+  EXPECT_THAT(Places(), ElementsAre(Place(1, 0), Place(2, 1), Place(3, 2)));
+}
+
 TEST_F(CloudFolder, ANumberWithoutARowIsLeftOut) {
   folder_.Write("poses.txt", kTum);
   WriteClouds({"scan_0.pcd", "scan_2.pcd", "scan_3.pcd"});
