@@ -1,137 +1,15 @@
 // The table of all keys.
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
-#include "absl/strings/str_split.h"
-#include "clearway/base/parse_number.h"
 #include "server/config.h"
+#include "server/setting_values.h"
 
 namespace clearway {
 namespace {
-
-absl::Status Bad(const std::string& text, const char* wanted) {
-  return absl::InvalidArgumentError(absl::StrCat("\"", text, "\" is not ", wanted));
-}
-
-// Blanks may stand around it.
-bool ParseBlankedNumber(const std::string& text, double& value) {
-  const auto number = absl::StripAsciiWhitespace(text);
-  return ParseNumber({number.data(), number.size()}, value);
-}
-
-// One pair for each kind of value: from text, and to TOML.
-absl::Status Parse(const std::string& text, std::string& value) {
-  value = text;
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, bool& value) {
-  return absl::SimpleAtob(text, &value) ? absl::OkStatus() : Bad(text, "true or false");
-}
-absl::Status Parse(const std::string& text, double& value) {
-  return ParseBlankedNumber(text, value) && std::isfinite(value) ? absl::OkStatus()
-                                                                 : Bad(text, "a number");
-}
-absl::Status Parse(const std::string& text, int& value) {
-  return absl::SimpleAtoi(text, &value) ? absl::OkStatus() : Bad(text, "a whole number");
-}
-absl::Status Parse(const std::string& text, std::uint64_t& value) {
-  return absl::SimpleAtoi(text, &value) ? absl::OkStatus()
-                                        : Bad(text, "a whole number that is not negative");
-}
-absl::Status Parse(const std::string& text, Duration& value) {
-  double seconds = 0;
-  constexpr double kLimit_s = 1e9;  // FromSeconds takes less than 9.2e9
-  if (!ParseBlankedNumber(text, seconds) || !(std::abs(seconds) <= kLimit_s)) {
-    return Bad(text, "a time in seconds of at most 1e9 either way");
-  }
-  value = FromSeconds(seconds);
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, SolidMode& value) {
-  const auto name = std::ranges::find(kSolidModeNames, text);
-  if (name == kSolidModeNames.end()) return Bad(text, "convex_hull, completed_hull or voxels");
-  value = static_cast<SolidMode>(name - kSolidModeNames.begin());
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, MotionModel& value) {
-  if (text != "last" && text != "track") return Bad(text, "last or track");
-  value = text == "track" ? MotionModel::kTrack : MotionModel::kLastMotion;
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, MotionFromPoints& value) {
-  const auto name = std::ranges::find(kMotionFromPointsNames, text);
-  if (name == kMotionFromPointsNames.end()) return Bad(text, "auto, on or off");
-  value = static_cast<MotionFromPoints>(name - kMotionFromPointsNames.begin());
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, std::vector<Aabb>& boxes) {
-  std::vector<double> numbers;
-  for (const auto& part : absl::StrSplit(text, absl::ByAnyChar(" ,;[]"), absl::SkipEmpty())) {
-    if (!ParseNumber({part.data(), part.size()}, numbers.emplace_back()))
-      return Bad(text, "a list of numbers");
-  }
-  if (numbers.size() % 6 != 0) return Bad(text, "a list of six numbers a box: minimum, maximum");
-  boxes.clear();
-  for (std::size_t i = 0; i < numbers.size(); i += 6) {
-    const double* n = &numbers[i];
-    boxes.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
-    const Aabb& box = boxes.back();
-    if (!box.min.allFinite() || !box.max.allFinite() ||
-        (box.min.array() >= box.max.array()).any()) {
-      return Bad(text, "finite, with each minimum below its maximum");
-    }
-  }
-  return absl::OkStatus();
-}
-absl::Status Parse(const std::string& text, Aabb& box) {
-  std::vector<Aabb> boxes;
-  if (auto status = Parse(text, boxes); !status.ok()) return status;
-  if (boxes.size() != 1) return Bad(text, "six numbers: minimum, maximum");
-  box = boxes.front();
-  return absl::OkStatus();
-}
-
-std::string Print(const std::string& value) {
-  return absl::StrCat("\"", absl::StrReplaceAll(value, {{"\\", "\\\\"}, {"\"", "\\\""}}), "\"");
-}
-std::string Print(bool value) { return value ? "true" : "false"; }
-std::string Print(double value) {
-  char text[32];  // the shortest text that reads as the same number
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return std::string(text, end);
-}
-std::string Print(int value) { return std::to_string(value); }
-std::string Print(std::uint64_t value) { return std::to_string(value); }
-std::string Print(Duration value) { return Print(ToSeconds(value)); }
-std::string Print(SolidMode value) {
-  return Print(std::string(kSolidModeNames[static_cast<std::size_t>(value)]));
-}
-std::string Print(MotionModel value) {
-  return Print(std::string(value == MotionModel::kTrack ? "track" : "last"));
-}
-std::string Print(MotionFromPoints value) {
-  return Print(std::string(kMotionFromPointsNames[static_cast<std::size_t>(value)]));
-}
-std::string Print(const Aabb& box) {
-  std::vector<std::string> numbers;
-  for (double number :
-       {box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()}) {
-    numbers.push_back(Print(number));
-  }
-  return absl::StrCat("[", absl::StrJoin(numbers, ", "), "]");
-}
-std::string Print(const std::vector<Aabb>& boxes) {
-  std::vector<std::string> texts;
-  for (const Aabb& box : boxes) texts.push_back(Print(box));
-  return absl::StrCat("[", absl::StrJoin(texts, ", "), "]");
-}
 
 // What a number may be.
 struct Range {
@@ -150,7 +28,7 @@ absl::Status CheckRange(const std::string& key, const std::string& text, const R
   }
   return absl::InvalidArgumentError(absl::StrCat(
       key, ": is ", text, range.with_ends ? "; it must lie between " : "; it must be above ",
-      Print(range.min), range.with_ends ? " and " : " and below ", Print(range.max)));
+      ValueText(range.min), range.with_ends ? " and " : " and below ", ValueText(range.max)));
 }
 
 // A setting of one member; field(config) gives a reference to it.
@@ -159,11 +37,11 @@ Setting Make(const char* key_text, const char* help, Field field, const Range& r
   const std::string key = key_text;
   const auto get = [field](const ServerConfig& config) {
     ServerConfig copy = config;
-    return Print(field(copy));
+    return ValueText(field(copy));
   };
   const auto set = [key, field, range](ServerConfig& config, const std::string& text) {
     if (absl::Status status = CheckRange(key, text, range); !status.ok()) return status;
-    const absl::Status status = Parse(text, field(config));
+    const absl::Status status = ParseValue(text, field(config));
     if (status.ok()) return status;
     return absl::InvalidArgumentError(absl::StrCat(key, ": ", std::string(status.message())));
   };
