@@ -15,8 +15,8 @@ struct ConvexBody {
   Eigen::Vector3d center;  // or any other point near it
 };
 
-// Along which of the axes of its turns, where a turn moves nothing, the first body is farthest from
-// the second. Nothing if it does not turn.
+// The gap along the axes of the first body's turns, which move none of its points along them: the
+// greatest one. Minus infinity if it does not turn.
 inline Separation ApartAlongAxes(const Spread& spread, FarthestPoint first, FarthestPoint second) {
   constexpr double kRounding_m = 1e-9;
   Separation best;
@@ -31,8 +31,8 @@ inline Separation ApartAlongAxes(const Spread& spread, FarthestPoint first, Fart
 }
 
 // Before which share of its way a body that spreads is farther than margin_m from one that stands
-// still, from the share `from` on; kNever if that is so up to `until`. Directions are looked for
-// without the spread: polytopes tell them in a few looks.
+// still, from the share `from` on; kNever if that is so up to `until`. GJK runs without the spread,
+// which is round: between polytopes it needs half the iterations.
 inline double FirstTouchOf(const ConvexBody& moving, const Eigen::Vector3d& way,
                            const ConvexBody& standing, double margin_m, const Spread& spread,
                            double from, double until) {
