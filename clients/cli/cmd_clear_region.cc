@@ -38,8 +38,10 @@ absl::Status NoteIfOutside(const SceneClient& client, const Aabb& box_W, std::os
   return absl::OkStatus();
 }
 
-void NoteIfBetweenCenters(const ClearedRegion& cleared, double resolution_m, std::ostream& err) {
-  if (cleared.voxels_in_box > 0) return;
+void NoteIfBetweenCenters(const ClearedRegion& cleared, const Aabb& box_W, double resolution_m,
+                          std::ostream& err) {
+  // Larger boxes hold none where the grid ends; the note about the map's span says so.
+  if (cleared.voxels_in_box > 0 || (box_W.max - box_W.min).minCoeff() >= resolution_m) return;
   err << "note: the box holds no centre of a voxel, so nothing is cleared; voxels of "
       << NumberText(resolution_m) << " m have centres at odd multiples of "
       << NumberText(resolution_m / 2) << " m\n";
@@ -61,7 +63,8 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (auto status = NoteIfOutside(client, flags.box_W, terminal.err); !status.ok()) return status;
   const auto cleared = client.ClearRegion(flags.box_W);
   if (!cleared.ok()) return cleared.status();
-  NoteIfBetweenCenters(*cleared, (*connection)->server().params.resolution_m, terminal.err);
+  NoteIfBetweenCenters(*cleared, flags.box_W, (*connection)->server().params.resolution_m,
+                       terminal.err);
   if (flags.json) {
     Json json = ToJson(*cleared);
     json["box_world"] = ToJson(flags.box_W);

@@ -104,8 +104,9 @@ absl::StatusOr<MeshContent> CheckStlContent(std::string_view bytes) {
     return MeshContent{.faces = StatedStlFacets(bytes), .parts = {}, .buffers = {}, .reduced = {}};
   }
   const bool is_text = bytes.find('\0') == std::string_view::npos;
-  if (is_text && absl::EqualsIgnoreCase(std::string(Trimmed(bytes).substr(0, 5)), "solid"))
-    return CheckText(bytes);
+  const absl::string_view text =
+      absl::StripLeadingAsciiWhitespace(absl::string_view(bytes.data(), bytes.size()));
+  if (is_text && absl::StartsWithIgnoreCase(text, "solid")) return CheckText(bytes);
   if (bytes.size() < kStlHeaderBytes) {
     return absl::InvalidArgumentError(
         absl::StrCat("neither a text that begins with 'solid', nor a binary STL file: it has ",

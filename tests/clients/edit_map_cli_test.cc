@@ -113,6 +113,9 @@ TEST_F(CliServer, ClearingWhatIsNotKnownIsNoted) {
   const Finished dut = Clearway({"clear-region", kBox});
   EXPECT_EQ(dut.exit_code, 0) << dut.err;
   EXPECT_THAT(dut.err, HasSubstr("no observed voxel in the box; it spans ("));
+  const Finished beyond = Clearway({"clear-region", "9e5,9e5,9e5,9.1e5,9.1e5,9.1e5"});
+  EXPECT_THAT(beyond.err, HasSubstr("no observed voxel in the box; it spans ("));
+  EXPECT_THAT(beyond.err, Not(HasSubstr("centre of a voxel")));
 }
 
 }  // namespace

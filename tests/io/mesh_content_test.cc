@@ -242,6 +242,14 @@ TEST(MeshContent, AsciiStlFilesMayBeInUpperCase) {
   EXPECT_EQ(mesh->triangles, Read("a.stl", AsciiStl())->triangles);
 }
 
+TEST(MeshContent, AsciiStlFilesMayBeginWithEmptyLines) {
+  const std::string late = "\n \r\n\t" + AsciiStl();
+  const auto mesh = Read("a.stl", late);
+  ASSERT_TRUE(mesh.ok()) << mesh.status();
+  EXPECT_EQ(mesh->triangles, Read("a.stl", AsciiStl())->triangles);
+  EXPECT_THAT(ErrorOf("a.stl", With(late, "  endloop\n", "")), HasSubstr("line 9: "));
+}
+
 TEST(MeshContent, ABinaryStlFileHasTheSizeThatItStates) {
   EXPECT_THAT(ErrorOf("b.stl", BinaryStl().substr(0, 84 + 120)),
               HasSubstr("it states 4 facets, 284 bytes in all, and has 204 bytes (2 facets)"));
