@@ -60,7 +60,7 @@ absl::Status SendAll(FrameReader& reader, FrameRange range, const Flags& flags, 
     tally.Sent(*frame);
     if (const absl::Status status = sender.Send(teller.Tell(*frame)); !status.ok()) return status;
     if (!flags.keep_going && tally.counts().refused > 0) return absl::OkStatus();
-    progress.Update(tally.counts().answered, tally.counts().points);
+    progress.Update(tally.counts().answered + reader.unread(), tally.counts().points);
   }
   return absl::OkStatus();
 }
@@ -124,7 +124,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   // The stream's end knows why it broke.
   if (const absl::Status closed = sender.CloseStream(); !closed.ok()) status = closed;
   const AckTally::Counts counts = tally.counts();
-  progress.Update(counts.answered, counts.points);
+  progress.Update(counts.answered + reader.unread(), counts.points);
   progress.Finish();
   if (!status.ok()) {
     return InContext(absl::StrCat("after ", Plural(counts.answered, "frame"), " of ", range->size(),

@@ -27,6 +27,7 @@ class FrameReader {
   // None if it cannot be read.
   std::optional<Frame> Read(std::size_t index);
   bool stopped() const { return unread_ > 0 && !keep_going_; }
+  std::size_t unread() const { return unread_; }
 
   // OK if every frame could be read. Else an error that names the first one that could not. If the
   // command stopped there, `so_far` says what it had done: "; 3 frames were sent".

@@ -18,11 +18,12 @@ absl::StatusOr<Written> WriteAll(FrameReader& reader, FrameRange range, Recordin
   absl::Status status;
   for (std::size_t k = range.first; k < range.end && status.ok() && !reader.stopped(); ++k) {
     const std::optional<Frame> frame = reader.Read(k);
-    if (!frame) continue;
-    status = writer.Append(*frame);
-    ++written.frames;
-    written.points += frame->points_S.size();
-    progress.Update(written.frames, written.points);
+    if (frame) {
+      status = writer.Append(*frame);
+      ++written.frames;
+      written.points += frame->points_S.size();
+    }
+    progress.Update(written.frames + reader.unread(), written.points);
   }
   progress.Finish();
   if (status.ok() && (reader.stopped() || written.frames == 0)) status = reader.Result();

@@ -112,16 +112,18 @@ absl::Status Fill(const Path& path, const std::string& label_field, Frame& frame
   return CheckInSensorFrame(path, frame.points_S);
 }
 
-// The first that can be read, or why the first cannot: whether others can is for who reads them.
+// The first that can be read: whether others can is for who reads them. Else why the first cannot,
+// but of clouds without the field of labels the first of those, for the name may be mistyped.
 absl::StatusOr<CloudPoints> FirstCloud(const std::map<int, Path>& clouds,
                                        const std::string& label_field) {
-  absl::Status why;
+  absl::Status why, without_field;
   for (const auto& [frame, path] : clouds) {
     absl::StatusOr<CloudPoints> cloud = ReadCloud(path, label_field);
     if (cloud.ok()) return cloud;
     why.Update(cloud.status());
+    if (without_field.ok() && ReadCloud(path, "").ok()) without_field = cloud.status();
   }
-  return why;
+  return without_field.ok() ? why : without_field;
 }
 
 std::string Described(const std::string& name, const PosedClouds& posed, const Path& table_path,

@@ -26,9 +26,11 @@ constexpr std::int64_t kMaxId = std::numeric_limits<ObjectId>::max();
 // GenericValueTrack::MeaninglessFrame, the greatest size_t.
 constexpr char kNoFrame[] = "18446744073709551615";
 
+// Without what is hidden: other systems put files like ._a.csv beside a.csv.
 bool IsCameraLog(const Path& path) {
   std::error_code error;
-  return path.filename().string().ends_with(kCameraLog) &&
+  const std::string name = path.filename().string();
+  return name.ends_with(kCameraLog) && !name.starts_with('.') &&
          std::filesystem::is_regular_file(path, error);
 }
 

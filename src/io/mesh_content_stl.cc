@@ -82,14 +82,15 @@ std::uint32_t StatedStlFacets(std::string_view bytes) {
   return count;
 }
 
-// Of the keywords, which may be in upper case; assimp knows small letters only.
+// Keywords may be in upper case, and empty lines before the first; assimp takes neither.
 absl::StatusOr<MeshContent> CheckText(std::string_view bytes) {
   const absl::StatusOr<std::uint64_t> facets = StlText(bytes).CountFacets();
   if (!facets.ok()) return facets.status();
   return MeshContent{.faces = *facets,
                      .parts = {},
                      .buffers = {},
-                     .reduced = absl::AsciiStrToLower(std::string(bytes))};
+                     .reduced = absl::AsciiStrToLower(absl::StripLeadingAsciiWhitespace(
+                         absl::string_view(bytes.data(), bytes.size())))};
 }
 
 }  // namespace

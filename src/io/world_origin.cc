@@ -59,6 +59,17 @@ absl::Status TooFar(const FrameSource& source, const Pose& T_W_S, bool asked) {
       moved ? "x,y,z, near the poses," : "first", " moves the origin"));
 }
 
+// Of the first frame that can be read; the first frame's error if none can.
+absl::StatusOr<Pose> FirstSensorPose(const FrameSource& source) {
+  absl::Status why;
+  for (std::size_t i = 0; i < source.frame_count; ++i) {
+    const absl::StatusOr<Frame> frame = source.read(i);
+    if (frame.ok()) return frame->T_W_S;
+    why.Update(frame.status());
+  }
+  return why;
+}
+
 }  // namespace
 
 std::string OriginText(const Eigen::Vector3d& origin_m) {
@@ -91,13 +102,16 @@ absl::StatusOr<LidarFolder> WithOrigin(LidarFolder folder,
 absl::StatusOr<FrameSource> WithOrigin(FrameSource source,
                                        const std::optional<WorldOrigin>& origin) {
   if (source.frame_count == 0) return source;
-  const absl::StatusOr<Frame> first = source.read(0);
-  // Whoever reads that frame sees its error.
-  if (!first.ok()) return source;
-  Pose T_W_S = first->T_W_S;
+  const absl::StatusOr<Pose> first = FirstSensorPose(source);
+  if (!first.ok()) {  // whoever reads frames sees it
+    if (!origin) return source;
+    if (origin->at_first_pose) return first.status();
+    return Moved(std::move(source), origin->position_m);
+  }
+  Pose T_W_S = *first;
   if (origin) {
     const Eigen::Vector3d origin_m =
-        origin->at_first_pose ? first->T_W_S.translation : origin->position_m;
+        origin->at_first_pose ? first->translation : origin->position_m;
     T_W_S.translation -= origin_m;
     source = Moved(std::move(source), origin_m);
   }

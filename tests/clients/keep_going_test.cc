@@ -69,6 +69,7 @@ TEST(KeepGoing, RecordLeavesOutWhatCannotBeRead) {
   const Finished dut = RunClearway({"record", path, "--out", out, "--keep-going", "--json"});
   EXPECT_EQ(dut.exit_code, 1);
   EXPECT_THAT(dut.err, HasSubstr("1 frame could not be read, the first: frame 1"));
+  EXPECT_THAT(dut.err, HasSubstr("3/3 frames"));  // there are no more to come
   EXPECT_EQ(json::parse(dut.out)["frames"], 2);
   EXPECT_EQ(json::parse(dut.out)["left_out"]["frames"], 1);
   EXPECT_EQ(json::parse(RunClearway({"info", out, "--json"}).out)["frames"], 2);

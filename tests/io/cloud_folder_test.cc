@@ -223,6 +223,8 @@ TEST_F(CloudFolder, LabelsComeFromTheFieldThatIsNamed) {
   EXPECT_THAT(Open({.label_field = "label"})->frames.read(0)->labels, ElementsAre(7));
   EXPECT_THAT(ErrorOf({.label_field = "instance"}),
               HasSubstr("0.pcd: no field instance; it has intensity x y normal z label"));
+  folder_.Write("0.pcd", "");  // that it is damaged matters less
+  EXPECT_THAT(ErrorOf({.label_field = "instance"}), HasSubstr("1.pcd: no field instance"));
 }
 
 TEST_F(CloudFolder, PlyFilesToo) {

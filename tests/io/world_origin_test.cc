@@ -148,6 +148,39 @@ TEST(WorldOrigin, SomeFarPosesAreLeftToTheScene) {
   EXPECT_TRUE(Open(folder, std::nullopt).ok());
 }
 
+// Frames 0 to 3, of which those before `readable` cannot be read.
+FrameSource Damaged(std::size_t readable) {
+  FrameSource source;
+  source.frame_count = 4;
+  source.read = [readable](std::size_t i) -> absl::StatusOr<Frame> {
+    if (i < readable) return absl::DataLossError(absl::StrCat("frame ", i, ": damaged"));
+    Frame frame = ExampleFrame(static_cast<int>(i));
+    frame.T_W_S.translation = kUtm + Eigen::Vector3d(static_cast<double>(i), 0, 0);
+    return frame;
+  };
+  return source;
+}
+
+TEST(WorldOrigin, IsSubtractedThoughTheFirstFrameCannotBeRead) {
+  const auto fixed = WithOrigin(Damaged(1), WorldOrigin{.position_m = kUtm});
+  ASSERT_TRUE(fixed.ok()) << fixed.status();
+  EXPECT_EQ(fixed->origin_m, kUtm);
+  EXPECT_EQ(fixed->read(2)->T_W_S.translation, Eigen::Vector3d(2, 0, 0));
+  const auto first = WithOrigin(Damaged(1), WorldOrigin{.at_first_pose = true});
+  ASSERT_TRUE(first.ok()) << first.status();
+  EXPECT_EQ(first->origin_m, kUtm + Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(first->read(2)->T_W_S.translation, Eigen::Vector3d(1, 0, 0));
+  EXPECT_THAT(WithOrigin(Damaged(1), std::nullopt).status().message(),
+              HasSubstr("beyond the limit of 100000 m"));
+}
+
+TEST(WorldOrigin, WhereNoFrameCanBeReadFirstIsAnError) {
+  EXPECT_EQ(WithOrigin(Damaged(4), WorldOrigin{.at_first_pose = true}).status().message(),
+            "frame 0: damaged");
+  EXPECT_EQ(WithOrigin(Damaged(4), WorldOrigin{.position_m = kUtm})->origin_m, kUtm);
+  EXPECT_TRUE(WithOrigin(Damaged(4), std::nullopt).ok());
+}
+
 TEST(WorldOrigin, IsKeptInARecording) {
   const TemporaryFolder folder;
   RecordingOptions options;

@@ -51,8 +51,8 @@ struct MotionWitness {
 struct MotionAnswer {
   // kFree is proved for every moment of the motion, from its first knot to its last. kUnresolved is
   // neither proved free nor in contact, within bounded effort: what is passed within about a
-  // sixtieth of contact_resolution_m, or touches only the convex hull of a part that is an open
-  // mesh. What does not come nearer while it goes or turns, as a turn about the normal of a
+  // sixtieth of contact_resolution_m (a tenth beside an object that turns by 9 rad between knots),
+  // or touches only the hull of an open mesh. What a robot comes no nearer to, as when turning on a
   // surface, is proved free wherever its states are, up to 0.2 micrometres: a robot nearer than 0.2
   // micrometres is in contact, and one nearer than 0.4 may be unresolved unless it rests. Anything
   // else is the status at the witness' end.

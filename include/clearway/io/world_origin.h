@@ -31,7 +31,8 @@ std::string OriginText(const Eigen::Vector3d& origin_m);
 // FrameLimits::max_coordinate_m, where a scene takes no frame.
 absl::StatusOr<LidarFolder> WithOrigin(LidarFolder folder,
                                        const std::optional<WorldOrigin>& origin);
-// The same of frames alone, by the first of which `at_first_pose` and the limit go.
+// The same of frames alone; `at_first_pose` and the limit go by the first that can be read. With
+// `at_first_pose`, the first frame's error if none can.
 absl::StatusOr<FrameSource> WithOrigin(FrameSource source,
                                        const std::optional<WorldOrigin>& origin);
 
