@@ -32,7 +32,7 @@ FollowCost FollowOnce(const SceneSnapshot& before, const SceneSnapshot& next) {
   FollowCost cost;
   std::vector<v1::SceneDeltaPart> parts;
   Clock::time_point begin = Clock::now();
-  WriteDelta(Diff(&before, next), [&](const v1::SceneDeltaPart& part) {
+  WriteDifference(SceneDifference(&before, next), [&](const v1::SceneDeltaPart& part) {
     parts.push_back(part);
     return true;
   });

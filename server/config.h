@@ -25,9 +25,10 @@ struct ServerConfig {
   std::string listen = "127.0.0.1:50151";
   std::string tls_cert, tls_key;  // PEM files
   std::string log_level = "info";
-  int threads = 0;                   // that apply frames; 0: as many as the machine has
-  int writer_niceness = 5;           // of those threads: 0, as those that answer, to 19
-  std::uint64_t kept_versions = 16;  // beside the newest, for mirrors that fell behind
+  int threads = 0;                            // that apply frames; 0: as many as the machine has
+  int writer_niceness = 5;                    // of those threads: 0, as those that answer, to 19
+  std::uint64_t kept_versions = 16;           // beside the newest, for mirrors that fell behind
+  Duration drain = std::chrono::seconds(10);  // that calls and frames have to end after SIGTERM
   KeepaliveConfig keepalive;
   SceneParams scene;
   ServerLimits limits;

@@ -11,6 +11,10 @@
 namespace clearway {
 namespace {
 
+constexpr std::chrono::milliseconds kTurn(10);  // that a long call may compute while others wait
+
+int Processors() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
 std::string NewInstance() {
   std::random_device random;
   return absl::StrFormat("%08x%08x", random(), random());
@@ -22,8 +26,7 @@ Ingestor::Options IngestorOptions(const ServerConfig& config) {
   options.frames = FrameLimitsOf(config.limits);
   options.max_queued = config.limits.max_queued_frames;
   options.max_remembered = config.limits.max_remembered_answers;
-  const int machine = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.threads = config.threads > 0 ? config.threads : machine;
+  options.threads = config.threads > 0 ? config.threads : Processors();
   options.niceness = config.writer_niceness;
   return options;
 }
@@ -39,6 +42,7 @@ Leases::Options LeaseOptions(const ServerConfig& config) {
 
 FrameLimits FrameLimitsOf(const ServerLimits& limits) {
   return {.max_points = limits.max_points_per_frame,
+          .max_ray_voxels = limits.max_ray_voxels,
           .max_objects = limits.max_objects,
           .max_coordinate_m = limits.max_coordinate_m,
           .max_blocks = limits.max_blocks,
@@ -50,6 +54,9 @@ ServerCore::ServerCore(const ServerConfig& server_config)
     : config(server_config),
       instance(NewInstance()),
       versions(config.kept_versions),
+      deltas(instance),
+      stalls(FromSeconds(config.limits.max_stall_s)),
+      computing(Processors(), kTurn),
       leases(LeaseOptions(config)),
       robots(config.limits, config.scene.resolution_m),
       ingestor(IngestorOptions(config), versions) {}

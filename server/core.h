@@ -8,9 +8,12 @@
 #include "absl/status/statusor.h"
 #include "clearway/v1/scene.pb.h"
 #include "server/config.h"
+#include "server/delta_cache.h"
+#include "server/fair_queue.h"
 #include "server/ingestor.h"
 #include "server/leases.h"
 #include "server/robots.h"
+#include "server/stall_watch.h"
 #include "server/versions.h"
 
 namespace clearway {
@@ -29,11 +32,15 @@ struct ServerCore {
   const std::string instance;  // differs for each start
   const std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Versions versions;
+  DeltaCache deltas;
+  StallWatch stalls;
+  FairQueue computing;
   Leases leases;
   Robots robots;
   Ingestor ingestor;
 
   std::atomic<bool> draining = false;
+  std::atomic<bool> cancelling = false;  // and what computes still shall stop
   std::atomic<std::uint64_t> calls = 0, follow_streams = 0, push_streams = 0;
   std::atomic<std::uint64_t> plans = 0, watch_streams = 0;
 };

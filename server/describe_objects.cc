@@ -50,9 +50,10 @@ ObjectInfo DescribeObject(const SceneSnapshot& scene, const MovingObject& object
   return info;
 }
 
-ObjectList DescribeObjects(const SceneSnapshot& scene) {
+absl::StatusOr<ObjectList> DescribeObjects(const SceneSnapshot& scene, const Gone& gone) {
   ObjectList list{{scene.version, scene.stamp}, {}};
   for (const auto& object : scene.objects) {
+    if (gone()) return absl::CancelledError("the client has gone");
     const bool is_listed_with_its_whole =
         object->part_of != kStaticLabel && scene.FindObject(object->part_of) != nullptr;
     if (!is_listed_with_its_whole) list.objects.push_back(DescribeObject(scene, *object));

@@ -1,6 +1,5 @@
 #include "server/handler.h"
 
-#include <chrono>
 #include <cstdint>
 #include <random>
 
@@ -11,8 +10,6 @@ namespace clearway {
 namespace {
 
 constexpr int kMarkField = 536'870'911;  // protobuf's highest; no message of ours has it
-
-constexpr std::chrono::milliseconds kLook(1);  // between two questions whether the client has gone
 
 // Of this process, so that no client can know it.
 std::uint64_t MarkValue() {
@@ -28,21 +25,15 @@ grpc::Status ToGrpc(const absl::Status& status) {
   return {static_cast<grpc::StatusCode>(proto.code()), proto.message(), proto.SerializeAsString()};
 }
 
-Gone GoneOf(const grpc::ServerContext* context) {
-  using Clock = std::chrono::steady_clock;
-  return [context, gone = false, next_look = Clock::now() + kLook]() mutable {
-    const Clock::time_point now = Clock::now();
-    if (!gone && now >= next_look) {
-      gone = context->IsCancelled();
-      next_look = now + kLook;
-    }
-    return gone;
-  };
-}
-
 absl::Status InternalFault(const char* name, const std::exception& exception) {
   spdlog::error("{} failed: {}", name, exception.what());
   return absl::InternalError("the server failed; its log says why");
+}
+
+absl::Status NoMemory(const char* name) {
+  spdlog::error("{} failed: no memory", name);
+  return WithReason(absl::ResourceExhaustedError("the server has no memory for the answer"),
+                    "NO_MEMORY");
 }
 
 absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& request) {

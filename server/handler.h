@@ -4,9 +4,11 @@
 #include <grpcpp/grpcpp.h>
 
 #include <exception>
+#include <new>
 
 #include "google/protobuf/message.h"
 #include "server/core.h"
+#include "server/work.h"
 #include "wire/frame_wire.h"
 #include "wire/geometry_wire.h"
 #include "wire/scene_wire.h"
@@ -17,11 +19,8 @@ namespace clearway {
 // With google.rpc details.
 grpc::Status ToGrpc(const absl::Status& status);
 
-// For one thread. Cheap enough to be called in inner loops: gRPC, whose answer takes system calls
-// and may wait for another thread's, is asked once a millisecond, and not at all by shorter calls.
-Gone GoneOf(const grpc::ServerContext* context);
-
 absl::Status InternalFault(const char* name, const std::exception& exception);
+absl::Status NoMemory(const char* name);  // RESOURCE_EXHAUSTED
 
 // RESOURCE_EXHAUSTED for a message above max_message_bytes.
 absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& request);
@@ -33,7 +32,11 @@ grpc::Status HandleStream(ServerCore& core, const char* name, Body&& body) {
   try {
     const Slot slot(core.calls, core.config.limits.max_calls);
     if (!slot.ok()) return ToGrpc(TooMany("calls", core.config.limits.max_calls));
-    return ToGrpc(body());
+    const absl::Status status = body();
+    const bool cut_off = core.cancelling && absl::IsCancelled(status);
+    return ToGrpc(cut_off ? DrainingError() : status);
+  } catch (const std::bad_alloc&) {
+    return ToGrpc(NoMemory(name));
   } catch (const std::exception& e) {
     return ToGrpc(InternalFault(name, e));
   }
@@ -74,10 +77,10 @@ template <class Request, class Body>
 grpc::Status HandleQuery(ServerCore& core, const char* name, const grpc::ServerContext* context,
                          const Request& request, Body&& body) {
   return Handle(core, name, request, [&]() -> absl::Status {
-    const Gone gone = GoneOf(context);
+    const Gone gone = GoneOf(core, context);
     absl::StatusOr<ScenePtr> scene = core.SceneFor(request.selector(), gone);
     if (!scene.ok()) return scene.status();
-    return body(**scene, gone);
+    return body(**scene, WorkOf(core, context));
   });
 }
 
@@ -87,7 +90,7 @@ absl::Status ApplyChange(ServerCore& core, const grpc::ServerContext* context,
                          Ingestor::Change change, bool forget_answers, Response* response) {
   absl::StatusOr<Ingestor::Ticket> ticket = core.ingestor.Apply(std::move(change), forget_answers);
   if (!ticket.ok()) return ticket.status();
-  const Ingestor::Answer answer = Ingestor::Wait(*ticket, GoneOf(context));
+  const Ingestor::Answer answer = Ingestor::Wait(*ticket, GoneOf(core, context));
   if (!answer.ok()) return answer.status();
   Write(static_cast<const Versioned&>(*answer), response->mutable_scene());
   return absl::OkStatus();

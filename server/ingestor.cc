@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook(20);
 
-absl::Status Draining() {
-  return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
-}
-
 absl::Status QueueFull(std::size_t limit) {
   return WithReason(absl::ResourceExhaustedError(
                         absl::StrCat("the queue is full: ", limit, " changes are waiting")),
@@ -23,6 +19,10 @@ absl::Status QueueFull(std::size_t limit) {
 }
 
 }  // namespace
+
+absl::Status DrainingError() {
+  return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
+}
 
 Ingestor::Ingestor(const Options& options, Versions& versions)
     : options_(options),
@@ -35,7 +35,10 @@ Ingestor::Ingestor(const Options& options, Versions& versions)
   writer_ = std::thread([this] { Run(); });
 }
 
-Ingestor::~Ingestor() { Drain(); }
+Ingestor::~Ingestor() {
+  Drain(std::chrono::steady_clock::now());
+  writer_.join();
+}
 
 std::unique_ptr<Ingestor::Job> Ingestor::JobOf(PushedFrame pushed) {
   auto job = std::make_unique<Job>();
@@ -52,7 +55,7 @@ std::unique_ptr<Ingestor::Job> Ingestor::JobOf(PushedFrame pushed) {
 
 absl::StatusOr<Ingestor::Ticket> Ingestor::Enqueue(std::unique_lock<std::mutex>&,
                                                    std::unique_ptr<Job> job) {
-  if (draining_) return Draining();
+  if (draining_) return DrainingError();
   if (queue_.size() >= options_.max_queued) return QueueFull(options_.max_queued);
   Ticket ticket{job->answer.get_future().share(), false};
   queue_.push_back(std::move(job));
@@ -157,6 +160,7 @@ void Ingestor::Run() {
     if (queue_.empty()) return;
     const std::unique_ptr<Job> job = std::move(queue_.front());
     queue_.pop_front();
+    applying_ = true;
     changed_.notify_all();
     lock.unlock();
     for (auto& alarm : alarms_) alarm->Start();
@@ -165,6 +169,8 @@ void Ingestor::Run() {
     lock.lock();
     if (job->frame) Count(*job->frame, answer);
     job->answer.set_value(std::move(answer));
+    applying_ = false;
+    changed_.notify_all();
   }
 }
 
@@ -190,13 +196,14 @@ void Ingestor::CountRefused() {
   ++counts_.frames_refused;
 }
 
-void Ingestor::Drain() {
-  {
-    std::lock_guard lock(mutex_);
-    draining_ = true;
-  }
+bool Ingestor::Drain(std::chrono::steady_clock::time_point end) {
+  std::unique_lock lock(mutex_);
+  draining_ = true;
   changed_.notify_all();
-  if (writer_.joinable()) writer_.join();
+  changed_.wait_until(lock, end, [&] { return queue_.empty() && !applying_; });
+  for (const auto& job : queue_) job->answer.set_value(DrainingError());
+  queue_.clear();
+  return !applying_;
 }
 
 IngestCounts Ingestor::counts() const {

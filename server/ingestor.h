@@ -22,6 +22,9 @@
 
 namespace clearway {
 
+// UNAVAILABLE: what a server that is about to end says to what it does not do any more.
+absl::Status DrainingError();
+
 // What the ingestor has done so far.
 struct IngestCounts {
   std::uint64_t frames_applied = 0, frames_refused = 0;
@@ -90,8 +93,9 @@ class Ingestor {
   // Counts a frame that was refused before it came here.
   void CountRefused();
 
-  // Refuses what is new, finishes what was accepted, and ends the writer thread.
-  void Drain();
+  // Refuses what is new, and applies what was accepted, as long as there is time: at `end` the
+  // changes that still wait are answered with UNAVAILABLE. False if one is being applied even then.
+  bool Drain(std::chrono::steady_clock::time_point end);
   IngestCounts counts() const;
 
  private:
@@ -121,6 +125,7 @@ class Ingestor {
   std::deque<std::unique_ptr<Job>> queue_;
   RememberedFrames remembered_;
   IngestCounts counts_;
+  bool applying_ = false;
   bool draining_ = false;
   std::thread writer_;
 };

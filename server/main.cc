@@ -1,18 +1,15 @@
 // clearway-server: see --help.
-#include <pthread.h>
-#include <signal.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "clearway/planning/ompl_log.h"
 #include "server/config.h"
+#include "server/log.h"
 #include "server/memory_use.h"
 #include "server/server.h"
+#include "server/signals.h"
 #include "server/thread_priority.h"
-#include "spdlog/sinks/stdout_color_sinks.h"
 #include "spdlog/spdlog.h"
 
 extern char** environ;
@@ -22,27 +19,11 @@ namespace {
 
 constexpr int kBadUsage = 2;
 constexpr int kCannotStart = 1;
-
-// SIGTERM and SIGINT are waited for, in one place; threads started later inherit the mask.
-sigset_t BlockSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
-
-// OMPL warns of its own defaults, as of cells of a projection that an area without an extent has:
-// nothing that an operator could change.
-void ToLog(OmplLevel level, const std::string& text) {
-  const bool is_error = level == OmplLevel::kError;
-  spdlog::log(is_error ? spdlog::level::warn : spdlog::level::debug, "OMPL: {}", text);
-}
+constexpr int kEndedAtOnce = 3;
 
 int Serve(const ServerConfig& config) {
   KeepFewArenas();
-  const sigset_t signals = BlockSignals();
+  const Signals signals;
   PreferShortTurns();  // of the threads that answer; those that apply frames give way
   absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config);
   if (!server.ok()) {
@@ -51,11 +32,13 @@ int Serve(const ServerConfig& config) {
   }
   std::printf("listening on %s\n", (*server)->address().c_str());
   std::fflush(stdout);
-  int signal = 0;
-  sigwait(&signals, &signal);
-  spdlog::info("signal {}: draining", signal);
+  int signal = signals.Next();
+  for (; signal == SIGHUP; signal = signals.Next()) spdlog::info("SIGHUP: nothing to read again");
+  spdlog::info("signal {}: draining for up to {} s; another one ends at once", signal,
+               ToSeconds(config.drain));
+  signals.EndAtTheNext(kEndedAtOnce);
   if (!(*server)->Drain()) {
-    spdlog::warn("drained; leaving connections whose clients read nothing");
+    spdlog::warn("drained, but for a change or clients that read nothing: leaving them");
     spdlog::shutdown();
     std::quick_exit(0);
   }
@@ -64,7 +47,7 @@ int Serve(const ServerConfig& config) {
 }
 
 int Main(const std::vector<std::string>& arguments) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("clearway-server"));
+  StartLog();
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
   absl::StatusOr<CommandLine> line = ReadCommandLine(arguments, environment);
@@ -73,7 +56,6 @@ int Main(const std::vector<std::string>& arguments) {
     return kBadUsage;
   }
   spdlog::set_level(spdlog::level::from_str(line->config.log_level));
-  WriteOmplLog(ToLog);
   for (const std::string& warning : line->warnings) spdlog::warn("{}", warning);
   if (!line->help.empty() || line->print_config) {
     std::fputs(line->help.empty() ? ToToml(line->config).c_str() : line->help.c_str(), stdout);

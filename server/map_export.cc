@@ -32,7 +32,8 @@ absl::StatusOr<VoxelMap> MapOf(const SceneSnapshot& scene, const ExportTarget& t
 }
 
 // The static map or one object alone, in its own frame; the scene with its objects in colours.
-absl::StatusOr<std::string> PlyOf(const SceneSnapshot& scene, const ExportTarget& target) {
+absl::Status WriteAsPly(const SceneSnapshot& scene, const ExportTarget& target,
+                        const ByteSink& sink) {
   const VoxelMap lasting_W = scene.LastingMap();
   std::vector<PlyLayer> layers;
   if (const auto* at = std::get_if<SceneAtTarget>(&target)) {
@@ -49,18 +50,19 @@ absl::StatusOr<std::string> PlyOf(const SceneSnapshot& scene, const ExportTarget
   } else {
     layers.push_back({&lasting_W, {}, kStaticLabel, PlyColorOf(kStaticLabel)});
   }
-  return SerializePly(layers, PlyStyle::kPoints);
+  return WritePly(layers, PlyStyle::kPoints, sink);
 }
 
 }  // namespace
 
-absl::StatusOr<std::string> ExportedFile(const SceneSnapshot& scene, const ExportTarget& target,
-                                         MapFormat format, const Gone& gone) {
-  if (format == MapFormat::kPly) return PlyOf(scene, target);
+absl::Status ExportTo(const ByteSink& sink, const SceneSnapshot& scene, const ExportTarget& target,
+                      MapFormat format, const Gone& gone) {
+  if (format == MapFormat::kPly) return WriteAsPly(scene, target, sink);
   absl::StatusOr<VoxelMap> map = MapOf(scene, target, gone);
   if (!map.ok()) return map.status();
-  return SerializeOctomap(*map,
-                          format == MapFormat::kBt ? OctomapFormat::kBinary : OctomapFormat::kFull);
+  const OctomapFormat octomap =
+      format == MapFormat::kBt ? OctomapFormat::kBinary : OctomapFormat::kFull;
+  return WriteOctomap(*map, octomap, sink, gone);
 }
 
 }  // namespace clearway

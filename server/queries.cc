@@ -1,8 +1,8 @@
 #include "server/queries.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/scene/timed_scene.h"
@@ -11,14 +11,36 @@
 namespace clearway {
 namespace {
 
-constexpr std::size_t kItemsPerLook = 1024;  // between two looks at whether the client has gone
+// Between two looks at whether the client has gone: a fraction of a millisecond, and some 5 ms if
+// there are as many keep-out zones as can be.
+constexpr std::size_t kPointsPerLook = 512;  // fewer together are looked up more slowly
+constexpr std::size_t kPosesPerLook = 256;
 
-// Calls ask(i) for each item, until the client has gone.
-template <class Ask>
-absl::Status ForEachItem(std::size_t items, const Gone& gone, Ask&& ask) {
-  for (std::size_t i = 0; i < items; ++i) {
-    if (i % kItemsPerLook == 0 && gone()) return absl::CancelledError("the client has gone");
-    ask(i);
+absl::Status GoneError() { return absl::CancelledError("the client has gone"); }
+
+// The earliest and the latest; there must be one.
+TimedScene Timed(const SceneSnapshot& scene, std::span<const Time> times) {
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  return {scene, *first, *last};
+}
+
+// Asks for points point_of(0), ... at time_of(0), ... until the client has gone; calls
+// take(i, PointOccupancy) for each in turn.
+template <class PointOf, class TimeOf, class Take>
+absl::Status ForEachPoint(TimedScene& scene, std::size_t count, const Gone& gone,
+                          PointOf&& point_of, TimeOf&& time_of, Take&& take) {
+  std::array<Eigen::Vector3d, kPointsPerLook> points_W;
+  std::array<Time, kPointsPerLook> times;
+  std::array<PointOccupancy, kPointsPerLook> answers;
+  for (std::size_t begin = 0; begin < count; begin += kPointsPerLook) {
+    if (gone()) return GoneError();
+    const std::size_t size = std::min(kPointsPerLook, count - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      points_W[i] = point_of(begin + i);
+      times[i] = time_of(begin + i);
+    }
+    scene.At({points_W.data(), size}, {times.data(), size}, {answers.data(), size});
+    for (std::size_t i = 0; i < size; ++i) take(begin + i, answers[i]);
   }
   return absl::OkStatus();
 }
@@ -54,6 +76,18 @@ void Count(SpaceStatus status, BoxOccupancy::Counts& counts) {
   }
 }
 
+// About how many voxels rays pass that hit nothing.
+double VoxelsAlong(const VoxelGrid& grid, std::span<const Eigen::Vector3f> directions_W,
+                   double max_range_m) {
+  // No way through the grid is longer than its diagonal.
+  const double range_m = std::min(max_range_m, 2 * std::sqrt(3.0) * grid.limit_m());
+  double steps_m = 0;
+  for (const Eigen::Vector3f& direction_W : directions_W) {
+    steps_m += range_m * direction_W.cast<double>().normalized().cwiseAbs().sum();
+  }
+  return steps_m / grid.resolution_m() + static_cast<double>(directions_W.size());
+}
+
 absl::Status TooManyCells(const std::string& field, double cells, std::uint64_t limit) {
   return absl::ResourceExhaustedError(
       absl::StrCat(field, ": asks for ", cells, " cells; the limit is ", limit));
@@ -78,24 +112,11 @@ absl::Status AskPoints(const SceneSnapshot& scene, Eigen::Map<const Eigen::Matri
   if (points_W.cols() == 0) return absl::OkStatus();
   const auto [first, last] = std::minmax_element(times_ns.begin(), times_ns.end());
   TimedScene timed(scene, TimeFromNanoseconds(*first), TimeFromNanoseconds(*last));
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Time> times;
-  std::vector<PointOccupancy> answers;
-  const auto count = static_cast<std::size_t>(points_W.cols());
-  for (std::size_t begin = 0; begin < count; begin += kItemsPerLook) {
-    if (gone()) return absl::CancelledError("the client has gone");
-    const std::size_t size = std::min(kItemsPerLook, count - begin);
-    points.resize(size);
-    times.resize(size);
-    answers.resize(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      points[i] = points_W.col(begin + i).cast<double>();
-      times[i] = TimeFromNanoseconds(times_ns[times_ns.size() == 1 ? 0 : begin + i]);
-    }
-    timed.At(points, times, answers);
-    for (std::size_t i = 0; i < size; ++i) answer(begin + i, answers[i]);
-  }
-  return absl::OkStatus();
+  return ForEachPoint(
+      timed, static_cast<std::size_t>(points_W.cols()), gone,
+      [&](std::size_t i) { return points_W.col(static_cast<Eigen::Index>(i)).cast<double>(); },
+      [&](std::size_t i) { return TimeFromNanoseconds(times_ns[times_ns.size() == 1 ? 0 : i]); },
+      answer);
 }
 
 absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_W,
@@ -118,18 +139,22 @@ absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_
     per_time *= answer.cell_counts[i];
   }
   const auto [nx, ny, nz] = answer.cell_counts;
-  for (Time time : times) {
-    const SceneAtTime at(scene, time);
-    BoxOccupancy::Counts& counts = answer.counts.emplace_back();
-    const auto ask = [&](std::size_t i) {
-      const Eigen::Vector3d cell(i % nx + range[0].first, i / nx % ny + range[1].first,
-                                 i / nx / ny + range[2].first);
-      const SpaceStatus status = at.At((cell.array() + 0.5) * answer.cell_m).status;
-      Count(status, counts);
-      if (include_cells) answer.cells.push_back(status);
-    };
-    if (auto status = ForEachItem(per_time, gone, ask); !status.ok()) return status;
-  }
+  const auto center_of = [&](std::size_t i) -> Eigen::Vector3d {
+    const std::size_t at = i % per_time;
+    const Eigen::Vector3d cell(at % nx + range[0].first, at / nx % ny + range[1].first,
+                               at / nx / ny + range[2].first);
+    return (cell.array() + 0.5) * answer.cell_m;
+  };
+  answer.counts.resize(times.size());
+  TimedScene timed = Timed(scene, times);
+  const absl::Status status = ForEachPoint(
+      timed, per_time * times.size(), gone, center_of,
+      [&](std::size_t i) { return times[i / per_time]; },
+      [&](std::size_t i, const PointOccupancy& point) {
+        Count(point.status, answer.counts[i / per_time]);
+        if (include_cells) answer.cells.push_back(point.status);
+      });
+  if (!status.ok()) return status;
   return answer;
 }
 
@@ -144,18 +169,22 @@ absl::StatusOr<SliceOccupancy> AskSlice(const SceneSnapshot& scene, const SliceQ
   if (!(cells <= static_cast<double>(max_cells))) return TooManyCells("cell_m", cells, max_cells);
   answer.columns = static_cast<std::uint32_t>(counts.x());
   answer.rows = static_cast<std::uint32_t>(counts.y());
-  for (Time time : times) {
-    const SceneAtTime at(scene, time);
-    const auto ask = [&](std::size_t i) {
-      const Eigen::Vector2d cell(i % answer.columns + 0.5, i / answer.columns + 0.5);
-      const Eigen::Vector2d p = slice.min_W + answer.cell_m * cell;
-      const PointOccupancy point = at.At({p.x(), p.y(), slice.z_m});
-      answer.cells.push_back(point.status);
-      answer.objects.push_back(point.object);
-    };
-    const std::size_t per_time = std::size_t{answer.columns} * answer.rows;
-    if (auto status = ForEachItem(per_time, gone, ask); !status.ok()) return status;
-  }
+  const std::size_t per_time = std::size_t{answer.columns} * answer.rows;
+  const auto center_of = [&](std::size_t i) -> Eigen::Vector3d {
+    const std::size_t at = i % per_time;
+    const Eigen::Vector2d cell(at % answer.columns + 0.5, at / answer.columns + 0.5);
+    const Eigen::Vector2d p = slice.min_W + answer.cell_m * cell;
+    return {p.x(), p.y(), slice.z_m};
+  };
+  TimedScene timed = Timed(scene, times);
+  const absl::Status status = ForEachPoint(
+      timed, per_time * times.size(), gone, center_of,
+      [&](std::size_t i) { return times[i / per_time]; },
+      [&](std::size_t, const PointOccupancy& point) {
+        answer.cells.push_back(point.status);
+        answer.objects.push_back(point.object);
+      });
+  if (!status.ok()) return status;
   return answer;
 }
 
@@ -163,21 +192,27 @@ absl::StatusOr<RayAnswers> AskRays(const SceneSnapshot& scene,
                                    std::span<const Eigen::Vector3f> origins_W,
                                    std::span<const Eigen::Vector3f> directions_W,
                                    std::span<const Time> times, double max_range_m,
-                                   const Gone& gone) {
+                                   std::uint64_t max_voxels, const Gone& gone) {
   RayAnswers answer{{scene.version, scene.stamp}, {}};
-  std::optional<SceneAtTime> placed;  // at the last ray's time
+  if (origins_W.empty()) return answer;
+  const double voxels = VoxelsAlong(scene.static_map_W.grid(), directions_W, max_range_m);
+  if (!(voxels <= static_cast<double>(max_voxels))) {
+    return absl::ResourceExhaustedError(absl::StrCat("max_range_m: the rays pass up to ", voxels,
+                                                     " voxels; the limit is ", max_voxels));
+  }
+  TimedScene timed = Timed(scene, times);
   for (std::size_t i = 0; i < origins_W.size(); ++i) {
-    if (gone()) return absl::CancelledError("the client has gone");
     const Time time = times[times.size() == 1 ? 0 : i];
-    if (!placed || placed->time() != time) placed.emplace(scene, time);
-    answer.rays.push_back(CastQueryRay(*placed, origins_W[i].cast<double>(),
-                                       directions_W[i].cast<double>(), max_range_m));
+    answer.rays.push_back(timed.CastRay(origins_W[i].cast<double>(), directions_W[i].cast<double>(),
+                                        max_range_m, time, gone));
+    if (gone()) return GoneError();
   }
   return answer;
 }
 
 absl::StatusOr<PredictedPoses> AskPoses(const SceneSnapshot& scene, std::span<const ObjectId> ids,
-                                        std::span<const Time> times, std::uint64_t max_poses) {
+                                        std::span<const Time> times, std::uint64_t max_poses,
+                                        const Gone& gone) {
   PredictedPoses answer{{scene.version, scene.stamp}, {ids.begin(), ids.end()}, {}};
   if (ids.empty()) {
     for (const auto& object : scene.objects) answer.objects.push_back(object->id);
@@ -193,6 +228,7 @@ absl::StatusOr<PredictedPoses> AskPoses(const SceneSnapshot& scene, std::span<co
                         "UNKNOWN_OBJECT");
     }
     for (Time time : times) {
+      if (answer.poses.size() % kPosesPerLook == 0 && gone()) return GoneError();
       answer.poses.push_back(PredictPose(*object, time, scene.params.horizon));
     }
   }

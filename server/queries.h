@@ -29,15 +29,18 @@ absl::StatusOr<SliceOccupancy> AskSlice(const SceneSnapshot& scene, const SliceQ
                                         std::span<const Time> times, std::uint64_t max_cells,
                                         const Gone& gone);
 
+// RESOURCE_EXHAUSTED, before the first is cast, for rays that would pass more than `max_voxels`
+// voxels if they hit nothing.
 absl::StatusOr<RayAnswers> AskRays(const SceneSnapshot& scene,
                                    std::span<const Eigen::Vector3f> origins_W,
                                    std::span<const Eigen::Vector3f> directions_W,
                                    std::span<const Time> times, double max_range_m,
-                                   const Gone& gone);
+                                   std::uint64_t max_voxels, const Gone& gone);
 
 // NOT_FOUND for an unknown id; ids empty: all objects. RESOURCE_EXHAUSTED for more than
 // `max_poses`.
 absl::StatusOr<PredictedPoses> AskPoses(const SceneSnapshot& scene, std::span<const ObjectId> ids,
-                                        std::span<const Time> times, std::uint64_t max_poses);
+                                        std::span<const Time> times, std::uint64_t max_poses,
+                                        const Gone& gone);
 
 }  // namespace clearway

@@ -25,10 +25,11 @@
 namespace clearway {
 namespace {
 
-constexpr std::chrono::seconds kLastCalls(5);  // that calls still running at the end may take
-constexpr std::chrono::milliseconds kLastAnswers(200);  // that open streams may take
-// That connections may take after that; within it those whose client reads nothing are cut.
-constexpr std::chrono::seconds kLastBytes(4), kLastReads(1);
+// That calls may take to end once they are told to.
+constexpr std::chrono::milliseconds kLastAnswers(200);
+// That connections may take after that, if there is time, and in any case; those whose client reads
+// nothing are cut within.
+constexpr std::chrono::milliseconds kLastBytes(4000), kLeastLastBytes(500), kLastReads(1000);
 constexpr int kMaxPingStrikes = 2;  // pings that come too early before a client is disconnected
 constexpr int kSpareThreads = 64;   // of gRPC's own, beyond one per call
 
@@ -85,10 +86,11 @@ class OwnersOnly {
   const mode_t before_;
 };
 
+using Clock = std::chrono::steady_clock;
+
 // Until no call but open push streams is running; those may stay idle for ever.
-void WaitForCalls(const ServerCore& core) {
-  const auto end = std::chrono::steady_clock::now() + kLastCalls;
-  while (core.calls > core.push_streams && std::chrono::steady_clock::now() < end) {
+void WaitForCalls(const ServerCore& core, Clock::time_point end) {
+  while (core.calls > core.push_streams && Clock::now() < end) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -167,17 +169,22 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
 
 bool Server::Drain() {
   std::call_once(impl_->drained, [&] {
-    impl_->core.draining = true;
+    ServerCore& core = impl_->core;
+    const Clock::time_point end = Clock::now() + core.config.drain;
+    core.draining = true;
     impl_->server->GetHealthCheckService()->SetServingStatus(false);
-    impl_->core.ingestor.Drain();
-    impl_->core.versions.Close();
-    WaitForCalls(impl_->core);
+    const bool applied = core.ingestor.Drain(end);
+    core.versions.Close();
+    WaitForCalls(core, end);
+    core.cancelling = true;
     if (impl_->unread) impl_->unread->SetPatience(kLastReads);
     impl_->ended = std::async(std::launch::async, [&server = *impl_->server] {
       server.Shutdown(std::chrono::system_clock::now() + kLastAnswers);
       server.Wait();
     });
-    impl_->ended_in_time = impl_->ended.wait_for(kLastBytes) == std::future_status::ready;
+    const Clock::time_point now = Clock::now() + kLastAnswers;
+    const Clock::time_point last = std::max(std::min(now + kLastBytes, end), now + kLeastLastBytes);
+    impl_->ended_in_time = impl_->ended.wait_until(last) == std::future_status::ready && applied;
   });
   return impl_->ended_in_time;
 }

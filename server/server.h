@@ -23,10 +23,11 @@ class Server {
   const std::string& address() const;
   ServerCore& core();
 
-  // Turns health to NOT_SERVING, refuses new writes with UNAVAILABLE, applies what was accepted,
-  // answers the calls that are running, and ends the streams. False if clients that read nothing
-  // still hold connections some seconds later: destroying the server then waits for them, and a
-  // program that ends should leave at once.
+  // Turns health to NOT_SERVING, refuses new writes with UNAVAILABLE, applies what was
+  // accepted, answers the calls that are running, and ends the streams. What is not done after
+  // ServerConfig::drain ends with UNAVAILABLE. False if, within a second of that, a change was
+  // still being applied or clients that read nothing still held connections: destroying the server
+  // then waits for them, and a program that ends should leave at once.
   bool Drain();
 
  private:

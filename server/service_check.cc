@@ -27,7 +27,7 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
                                         const v1::CheckStatesRequest* request,
                                         v1::CheckStatesResponse* response) {
   return Handle(core_, "CheckStates", *request, [&]() -> absl::Status {
-    const Gone gone = GoneOf(context);
+    const Gone gone = GoneOf(core_, context);
     absl::StatusOr<std::shared_ptr<const PreparedRobot>> robot =
         core_.robots.Find(request->robot_id());
     if (!robot.ok()) return robot.status();
@@ -44,7 +44,7 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
     if (!scene.ok()) return scene.status();
     auto checker = core_.robots.CheckerFor(request->robot_id(), *scene);
     if (!checker.ok()) return checker.status();
-    absl::StatusOr<CheckReply> reply = (*checker)->Check(*states, *options, gone);
+    absl::StatusOr<CheckReply> reply = (*checker)->Check(*states, *options, WorkOf(core_, context));
     if (!reply.ok()) return reply.status();
     Write(*reply, response);
     return absl::OkStatus();
@@ -55,7 +55,7 @@ grpc::Status CheckHandlers::CheckMotions(grpc::ServerContext* context,
                                          const v1::CheckMotionsRequest* request,
                                          v1::CheckMotionsResponse* response) {
   return Handle(core_, "CheckMotions", *request, [&]() -> absl::Status {
-    const Gone gone = GoneOf(context);
+    const Gone gone = GoneOf(core_, context);
     const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(*request, core_);
     if (!question.ok()) return question.status();
     absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), gone);
@@ -63,7 +63,7 @@ grpc::Status CheckHandlers::CheckMotions(grpc::ServerContext* context,
     auto checker = core_.robots.CheckerFor(request->robot_id(), *scene);
     if (!checker.ok()) return checker.status();
     absl::StatusOr<MotionReply> reply =
-        (*checker)->CheckMotions(question->motions, question->options, gone);
+        (*checker)->CheckMotions(question->motions, question->options, WorkOf(core_, context));
     if (!reply.ok()) return reply.status();
     Write(*reply, response);
     return absl::OkStatus();

@@ -14,6 +14,7 @@ constexpr std::chrono::milliseconds kLook(20);
 constexpr std::chrono::seconds kMaxWait(1);
 constexpr double kMaxInterval_s = 3600;
 constexpr double kMinHeartbeat_s = 0.1;
+constexpr std::size_t kMostSharedBlocks = 100'000;  // of a scene: some 30 MB as messages
 
 // Waits, unless the client goes or the server drains.
 void Pause(Duration time, const ServerCore& core, const Gone& gone) {
@@ -33,46 +34,76 @@ struct Pursuit {
   MapDetail detail;
 };
 
-v1::FollowSceneResponse About(const SceneSnapshot& scene, const ServerCore& core) {
-  v1::FollowSceneResponse response;
-  Write(VersionOf(scene), response.mutable_scene());
-  response.set_server_instance(core.instance);
-  return response;
-}
+// One difference to the newest version at a time: a client that reads slowly blocks the write, and
+// what was published meanwhile becomes one difference. Nothing queues up.
+class Follower {
+ public:
+  Follower(ServerCore& core, Pursuit pursuit, grpc::ServerContext& context,
+           grpc::ServerWriter<v1::FollowSceneResponse>& writer)
+      : core_(core),
+        pursuit_(std::move(pursuit)),
+        context_(context),
+        writer_(writer),
+        gone_(GoneOf(core, &context)) {}
 
-// One difference to the newest version at a time: a client that reads slowly blocks Write, and what
-// was published meanwhile becomes one difference. Nothing queues up.
-absl::Status Follow(ServerCore& core, Pursuit pursuit, const Gone& gone,
-                    grpc::ServerWriter<v1::FollowSceneResponse>& writer) {
-  using Clock = std::chrono::steady_clock;
-  const Duration beat = pursuit.heartbeat;
-  ScenePtr& base = pursuit.base;
-  Clock::time_point next_beat = Clock::now();
-  while (!gone()) {
-    const std::uint64_t wanted = base == nullptr ? 0 : base->version + 1;
-    const Duration quiet =
-        beat == Duration::zero() ? Duration(kMaxWait) : Duration(next_beat - Clock::now());
-    const ScenePtr next = core.versions.WaitFor(wanted, std::min<Duration>(quiet, kMaxWait), gone);
-    if (core.draining)
-      return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
-    if (next == nullptr) {
-      if (beat == Duration::zero() || base == nullptr || Clock::now() < next_beat) continue;
-      if (!writer.Write(About(*base, core))) break;
+  absl::Status Run() {
+    ScenePtr& base = pursuit_.base;
+    const Duration beat = pursuit_.heartbeat;
+    Clock::time_point next_beat = Clock::now();
+    while (!gone_()) {
+      const std::uint64_t wanted = base == nullptr ? 0 : base->version + 1;
+      const Duration quiet =
+          beat == Duration::zero() ? Duration(kMaxWait) : Duration(next_beat - Clock::now());
+      const ScenePtr next =
+          core_.versions.WaitFor(wanted, std::min<Duration>(quiet, kMaxWait), gone_);
+      if (core_.draining) return DrainingError();
+      if (next == nullptr) {
+        if (beat == Duration::zero() || base == nullptr || Clock::now() < next_beat) continue;
+        if (!Send(AboutVersion(*base, core_.instance))) break;
+        next_beat = Clock::now() + beat;
+        continue;
+      }
+      if (!SendDifference(*next)) break;
+      base = next;
       next_beat = Clock::now() + beat;
-      continue;
+      Pause(pursuit_.min_interval, core_, gone_);
     }
-    const auto send = [&](const v1::SceneDeltaPart& part) {
-      v1::FollowSceneResponse response = About(*next, core);
-      *response.mutable_delta() = part;
-      return writer.Write(response);
-    };
-    if (!WriteDelta(Diff(base.get(), *next, pursuit.detail), send)) break;
-    base = next;
-    next_beat = Clock::now() + beat;
-    Pause(pursuit.min_interval, core, gone);
+    return absl::CancelledError("the client has gone");
   }
-  return absl::CancelledError("the client has gone");
-}
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool Send(const v1::FollowSceneResponse& message) {
+    return WriteTo(writer_, message, context_, core_.stalls);
+  }
+
+  // A difference is shared with all who go the same step. A large scene is sent as it is made.
+  bool SendDifference(const SceneSnapshot& next) {
+    if (pursuit_.base == nullptr && next.static_map_W.blocks().size() > kMostSharedBlocks) {
+      return SendWhole(next);
+    }
+    const auto messages = core_.deltas.Between(pursuit_.base.get(), next, pursuit_.detail);
+    return std::ranges::all_of(*messages, [&](const auto& message) { return Send(message); });
+  }
+
+  bool SendWhole(const SceneSnapshot& next) {
+    v1::FollowSceneResponse message = AboutVersion(next, core_.instance);
+    Work work(core_, &context_);
+    return WriteDifference(SceneDifference(nullptr, next, pursuit_.detail),
+                           [&](const v1::SceneDeltaPart& part) {
+                             *message.mutable_delta() = part;
+                             work.Rest();
+                             return Send(message) && !work.MustEnd();
+                           });
+  }
+
+  ServerCore& core_;
+  Pursuit pursuit_;
+  grpc::ServerContext& context_;
+  grpc::ServerWriter<v1::FollowSceneResponse>& writer_;
+  const Gone gone_;
+};
 
 }  // namespace
 
@@ -98,7 +129,7 @@ grpc::Status FollowHandlers::FollowScene(grpc::ServerContext* context,
     const MapDetail detail = request->states_only() ? MapDetail::kStates : MapDetail::kLogOdds;
     Pursuit pursuit{std::move(base), FromSeconds(std::min(interval_s, kMaxInterval_s)),
                     FromSeconds(beat_s), detail};
-    return Follow(core_, std::move(pursuit), GoneOf(context), *writer);
+    return Follower(core_, std::move(pursuit), *context, *writer).Run();
   });
 }
 

@@ -21,9 +21,7 @@ struct Accepted {
 // Of PushFrame and PushFrames alike. push(PushedFrame) puts a frame into the queue.
 template <class Request, class Push>
 absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&& push) {
-  if (core.draining) {
-    return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
-  }
+  if (core.draining) return DrainingError();
   if (absl::Status status = CheckSize(core, request); !status.ok()) return status;
   absl::StatusOr<AckLevel> level = ReadAckLevel("wait_for", request.wait_for());
   if (!level.ok()) return level.status();
@@ -72,10 +70,13 @@ class AnswerWriter {
  public:
   using Stream = grpc::ServerReaderWriter<v1::PushFramesResponse, v1::PushFramesRequest>;
 
-  AnswerWriter(const ServerCore& core, Stream& stream, std::size_t window, Gone gone)
-      : core_(core), stream_(stream), window_(window), gone_(std::move(gone)), thread_([this] {
-          Run();
-        }) {}
+  AnswerWriter(ServerCore& core, Stream& stream, std::size_t window, grpc::ServerContext& context)
+      : core_(core),
+        stream_(stream),
+        window_(window),
+        context_(context),
+        gone_(GoneOf(core, &context)),
+        thread_([this] { Run(); }) {}
 
   ~AnswerWriter() { Finish(); }
 
@@ -111,7 +112,8 @@ class AnswerWriter {
       if (owed_.empty()) return;
       const Owed owed = owed_.front();
       lock.unlock();
-      stream_.Write(ResponseTo(owed));  // if the client has gone, so has the answer's reader
+      // If the client has gone, so has the answer's reader.
+      WriteTo(stream_, ResponseTo(owed), context_, core_.stalls);
       lock.lock();
       owed_.pop_front();
       changed_.notify_all();
@@ -133,9 +135,10 @@ class AnswerWriter {
     return response;
   }
 
-  const ServerCore& core_;
+  ServerCore& core_;
   Stream& stream_;
   const std::size_t window_;
+  grpc::ServerContext& context_;
   const Gone gone_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -154,7 +157,7 @@ grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
       return core_.ingestor.Push(std::move(pushed));
     });
     if (!accepted.ok()) return accepted.status();
-    absl::StatusOr<PushAck> ack = AnswerOf(core_, *accepted, GoneOf(context));
+    absl::StatusOr<PushAck> ack = AnswerOf(core_, *accepted, GoneOf(core_, context));
     if (!ack.ok()) return ack.status();
     Write(*ack, response);
     return absl::OkStatus();
@@ -168,14 +171,12 @@ grpc::Status IngestHandlers::PushFrames(
     const ServerLimits& limits = core_.config.limits;
     const Slot slot(core_.push_streams, limits.max_push_streams);
     if (!slot.ok()) return TooMany("push streams", limits.max_push_streams);
-    if (core_.draining) {
-      return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
-    }
+    if (core_.draining) return DrainingError();
     // Tells the client that the stream is open before there is anything to answer.
     context->AddInitialMetadata("clearway-server-instance", core_.instance);
     stream->SendInitialMetadata();
-    const Gone gone = GoneOf(context);
-    AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, gone);
+    const Gone gone = GoneOf(core_, context);
+    AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, *context);
     v1::PushFramesRequest request;
     Received received;
     while ((received = ReadNext(*stream, request)) == Received::kMessage) {

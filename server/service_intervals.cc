@@ -12,13 +12,13 @@ using Intervals = absl::StatusOr<std::vector<std::vector<TimeInterval>>>;
 // find(checker) -> Intervals, on the version that is asked for.
 template <class Find, class Response>
 absl::Status Answer(ServerCore& core, const v1::SceneSelector& selector,
-                    const std::string& robot_id, const CheckOptions& options, const Gone& gone,
-                    Find&& find, Response* response) {
-  const absl::StatusOr<ScenePtr> scene = core.SceneFor(selector, gone);
+                    const std::string& robot_id, const CheckOptions& options,
+                    const grpc::ServerContext* context, Find&& find, Response* response) {
+  const absl::StatusOr<ScenePtr> scene = core.SceneFor(selector, GoneOf(core, context));
   if (!scene.ok()) return scene.status();
   auto checker = core.robots.CheckerFor(robot_id, *scene);
   if (!checker.ok()) return checker.status();
-  const Intervals intervals = find(CancellableChecker(*std::move(checker), gone));
+  const Intervals intervals = find(CancellableChecker(*std::move(checker), WorkOf(core, context)));
   if (!intervals.ok()) return intervals.status();
   Write(VersionOf(**scene), response->mutable_scene());
   response->set_horizon_ns((*scene)->params.horizon.count());
@@ -56,8 +56,8 @@ grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
       return clearway::FindSafeIntervals(checker, question->T_W_L, question->window,
                                          question->options);
     };
-    return Answer(core_, request->selector(), request->robot_id(), waits.check, GoneOf(context),
-                  find, response);
+    return Answer(core_, request->selector(), request->robot_id(), waits.check, context, find,
+                  response);
   });
 }
 
@@ -79,8 +79,8 @@ grpc::Status CheckHandlers::FindDepartureIntervals(grpc::ServerContext* context,
       return clearway::FindDepartureIntervals(checker, question->motions, *window,
                                               {question->options, ReadResolution(*request)});
     };
-    return Answer(core_, motions.selector(), motions.robot_id(), question->options.check,
-                  GoneOf(context), find, response);
+    return Answer(core_, motions.selector(), motions.robot_id(), question->options.check, context,
+                  find, response);
   });
 }
 

@@ -21,7 +21,7 @@ grpc::Status LeaseHandlers::AcquireLease(grpc::ServerContext* context,
   return Handle(core_, "AcquireLease", *request, [&]() -> absl::Status {
     absl::StatusOr<Duration> ttl = ReadTtl(request->ttl_s());
     if (!ttl.ok()) return ttl.status();
-    absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), GoneOf(context));
+    absl::StatusOr<ScenePtr> scene = core_.SceneFor(request->selector(), GoneOf(core_, context));
     if (!scene.ok()) return scene.status();
     absl::StatusOr<LeaseGrant> grant = core_.leases.Acquire(*scene, *ttl);
     if (!grant.ok()) return grant.status();

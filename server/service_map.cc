@@ -12,8 +12,6 @@
 namespace clearway {
 namespace {
 
-constexpr std::size_t kPieceBytes = 1 << 20;
-
 absl::StatusOr<ExportTarget> ReadTarget(const v1::ExportMapRequest& request) {
   FieldReader read;
   switch (request.map_case()) {
@@ -90,23 +88,23 @@ std::int64_t MaxVoxelsOf(const ServerLimits& limits) {
 grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
                                     const v1::ExportMapRequest* request,
                                     grpc::ServerWriter<v1::ExportMapResponse>* writer) {
-  return HandleQuery(core_, "ExportMap", context, *request,
-                     [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
-                       absl::StatusOr<MapFormat> format = ReadFormat(request->format());
-                       if (!format.ok()) return format.status();
-                       absl::StatusOr<ExportTarget> target = ReadTarget(*request);
-                       if (!target.ok()) return target.status();
-                       absl::StatusOr<std::string> file =
-                           ExportedFile(scene, *target, *format, gone);
-                       if (!file.ok()) return file.status();
-                       v1::ExportMapResponse response;
-                       Write(VersionOf(scene), response.mutable_scene());
-                       for (std::size_t at = 0; at < file->size() && !gone(); at += kPieceBytes) {
-                         response.set_data(file->substr(at, kPieceBytes));
-                         if (!writer->Write(response)) break;
-                       }
-                       return absl::OkStatus();
-                     });
+  return Handle(core_, "ExportMap", *request, [&]() -> absl::Status {
+    const absl::StatusOr<MapFormat> format = ReadFormat(request->format());
+    if (!format.ok()) return format.status();
+    const absl::StatusOr<ExportTarget> target = ReadTarget(*request);
+    if (!target.ok()) return target.status();
+    const auto scene = core_.SceneFor(request->selector(), GoneOf(core_, context));
+    if (!scene.ok()) return scene.status();
+    Work work(core_, context);
+    v1::ExportMapResponse response;
+    Write(VersionOf(**scene), response.mutable_scene());
+    const auto send = [&](std::string_view piece) {
+      response.set_data(std::string(piece));
+      work.Rest();
+      return WriteTo(*writer, response, *context, core_.stalls) && !work.MustEnd();
+    };
+    return ExportTo(send, **scene, *target, *format, [&] { return work.MustEnd(); });
+  });
 }
 
 grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
@@ -124,7 +122,7 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
     limits.max_bytes = max_bytes;
     limits.max_voxels = MaxVoxelsOf(core_.config.limits);
     absl::StatusOr<OctomapFile> file =
-        ParseOctomap("data", *bytes, core_.config.scene.Model(), limits);
+        ParseOctomap("data", *bytes, core_.config.scene.Model(), limits, WorkOf(core_, context));
     if (absl::IsResourceExhausted(file.status())) {
       return absl::ResourceExhaustedError(
           absl::StrCat(std::string(file.status().message()), " (limits.max_prior_bytes is ",

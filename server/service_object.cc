@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cstdint>
+
 #include "absl/strings/str_cat.h"
 #include "server/describe_objects.h"
 #include "server/handler.h"
@@ -7,6 +10,8 @@
 
 namespace clearway {
 namespace {
+
+constexpr std::uint64_t kPoseBytes = 64;  // of eight numbers in a reply
 
 absl::Status KnowingObjects(absl::Status status) {
   return absl::IsNotFound(status) ? WithReason(std::move(status), "UNKNOWN_OBJECT") : status;
@@ -18,9 +23,11 @@ grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
                                          const v1::ListObjectsRequest* request,
                                          v1::ListObjectsResponse* response) {
   return HandleQuery(core_, "ListObjects", context, *request,
-                     [&](const SceneSnapshot& scene, const Gone&) {
+                     [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
+                       const absl::StatusOr<ObjectList> list = DescribeObjects(scene, gone);
+                       if (!list.ok()) return list.status();
                        Write(VersionOf(scene), response->mutable_scene());
-                       for (const ObjectInfo& object : DescribeObjects(scene).objects) {
+                       for (const ObjectInfo& object : list->objects) {
                          Write(object, response->add_objects());
                        }
                        return absl::OkStatus();
@@ -50,9 +57,11 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
                                           v1::PredictPosesResponse* response) {
   return HandleQuery(
       core_, "PredictPoses", context, *request,
-      [&](const SceneSnapshot& scene, const Gone&) -> absl::Status {
+      [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         FieldReader read;
-        const std::uint64_t limit = core_.config.limits.max_points_per_query;
+        const ServerLimits& limits = core_.config.limits;
+        const std::uint64_t limit =
+            std::min(limits.max_points_per_query, limits.max_message_bytes / kPoseBytes);
         read.AtMost("times_ns", request->times_ns_size(), limit);
         read.AtMost("object_ids", request->object_ids_size(), limit);
         read.Require(!request->times_ns().empty(), "times_ns", "is empty");
@@ -62,7 +71,7 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
         if (!read.ok()) return read.status();
         absl::StatusOr<PredictedPoses> poses =
             AskPoses(scene, std::span(request->object_ids().data(), request->object_ids().size()),
-                     times, limit);
+                     times, limit, gone);
         if (!poses.ok()) return poses.status();
         Write(*poses, response);
         return absl::OkStatus();

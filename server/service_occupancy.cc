@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cstdint>
+
 #include "server/handler.h"
 #include "server/queries.h"
 #include "server/services.h"
@@ -14,6 +17,8 @@ std::vector<Time> ReadTimes(const google::protobuf::RepeatedField<std::int64_t>&
   if (!read.ok()) return {};
   return read.Times("times_ns", times_ns, times_ns.size());
 }
+
+constexpr std::uint64_t kCountsBytes = 32;  // of the counts of one time in a reply, at most
 
 template <class Answer, class Response>
 absl::Status Reply(const absl::StatusOr<Answer>& answer, Response* response) {
@@ -52,7 +57,8 @@ grpc::Status OccupancyHandlers::GetBoxOccupancy(grpc::ServerContext* context,
         const std::uint64_t limit = core_.config.limits.max_points_per_query;
         FieldReader read;
         const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
-        const auto times = ReadTimes(request->times_ns(), limit, read);
+        const std::uint64_t most_times = core_.config.limits.max_message_bytes / kCountsBytes;
+        const auto times = ReadTimes(request->times_ns(), std::min(limit, most_times), read);
         if (!read.ok()) return read.status();
         return Reply(AskBox(scene, box_W, times, request->include_cells(), limit, gone), response);
       });
@@ -102,7 +108,9 @@ grpc::Status OccupancyHandlers::CastRays(grpc::ServerContext* context,
         const auto times = read.Times("times_ns", request->times_ns(), origins_W.size());
         const double max_range_m = read.Positive("max_range_m", request->max_range_m());
         if (!read.ok()) return read.status();
-        return Reply(AskRays(scene, origins_W, directions_W, times, max_range_m, gone), response);
+        return Reply(AskRays(scene, origins_W, directions_W, times, max_range_m,
+                             core_.config.limits.max_ray_voxels, gone),
+                     response);
       });
 }
 

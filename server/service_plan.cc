@@ -6,8 +6,9 @@
 namespace clearway {
 namespace {
 
-absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone& gone,
+absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, grpc::ServerContext& context,
                    grpc::ServerWriter<v1::PlanResponse>& writer) {
+  const Gone gone = GoneOf(core, &context);
   const ServerLimits& limits = core.config.limits;
   const auto robot = core.robots.Find(request.robot_id());
   if (!robot.ok()) return robot.status();
@@ -22,13 +23,15 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone&
   if (!scene.ok()) return scene.status();
   const auto checker = core.robots.CheckerFor(request.robot_id(), *scene);
   if (!checker.ok()) return checker.status();
+  Work work(core, &context);
   bool lost = false;  // a stream that takes no more messages has no reader
   const auto send = [&](v1::PlanResponse& response) {
     Write(VersionOf(**scene), response.mutable_scene());
     response.set_horizon_ns((*scene)->params.horizon.count());
     response.set_inflation_mps(task->options.check.inflation_mps);
     response.set_bound_multiple(task->options.check.bound_multiple);
-    lost = lost || !writer.Write(response);
+    work.Rest();
+    lost = lost || !WriteTo(writer, response, context, core.stalls);
   };
   const auto outcome = Solve(
       *task, *checker, *budget,
@@ -37,10 +40,10 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, const Gone&
         Write(plan, request, (*robot)->robot().links.size(), response.mutable_path());
         send(response);
       },
-      [&] { return lost || core.draining || gone(); });
+      [&] { return lost || core.draining || work.MustEnd(); });
   if (!outcome.ok()) return outcome.status();
   if (core.draining && outcome->status == PlanStatus::kNotFound) {
-    return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
+    return DrainingError();
   }
   v1::PlanResponse last;
   Write(*outcome, &last);
@@ -56,7 +59,7 @@ grpc::Status PlanHandlers::Plan(grpc::ServerContext* context, const v1::PlanRequ
     const std::uint64_t limit = core_.config.limits.max_plans;
     const Slot slot(core_.plans, limit);
     if (!slot.ok()) return TooMany("plans", limit);
-    return Serve(core_, *request, GoneOf(context), *writer);
+    return Serve(core_, *request, *context, *writer);
   });
 }
 

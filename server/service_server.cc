@@ -18,14 +18,17 @@ grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*,
   });
 }
 
-grpc::Status InfoHandlers::GetStatus(grpc::ServerContext*, const v1::GetStatusRequest* request,
+grpc::Status InfoHandlers::GetStatus(grpc::ServerContext* context,
+                                     const v1::GetStatusRequest* request,
                                      v1::GetStatusResponse* response) {
-  return Handle(core_, "GetStatus", *request, [&] {
+  return Handle(core_, "GetStatus", *request, [&]() -> absl::Status {
+    const Gone must_end = WorkOf(core_, context);
     const ScenePtr scene = core_.versions.Newest();
     const IngestCounts counts = core_.ingestor.counts();
     ServerStatus status;
     static_cast<Versioned&>(status) = VersionOf(*scene);
-    if (request->include_hash()) status.scene_hash = scene->Hash();
+    if (request->include_hash()) status.scene_hash = scene->Hash(must_end);
+    if (must_end()) return absl::CancelledError("the client has gone");
     status.uptime_s = ToSeconds(std::chrono::steady_clock::now() - core_.started);
     status.draining = core_.draining;
     status.frames_applied = counts.frames_applied;

@@ -9,14 +9,14 @@ namespace {
 
 // What is left of the motions at a version's stamp is put to it; what is over counts as free.
 absl::StatusOr<MotionReply> AskVersion(ServerCore& core, const MotionQuestion& question,
-                                       const ScenePtr& scene, const Gone& gone) {
+                                       const ScenePtr& scene, const Gone& must_end) {
   const auto checker = core.robots.CheckerFor(question.robot_id, question.robot, scene);
   if (question.options.world_at) {
-    return checker->CheckMotions(question.motions, question.options, gone);
+    return checker->CheckMotions(question.motions, question.options, must_end);
   }
   const std::size_t links = question.robot->robot().links.size();
   const MotionRest rest = RestOf(question.motions, links, scene->stamp);
-  auto reply = checker->CheckMotions(rest.motions, question.options, gone);
+  auto reply = checker->CheckMotions(rest.motions, question.options, must_end);
   if (!reply.ok()) return reply.status();
   std::vector<MotionAnswer> answers(question.motions.knot_counts.size());
   std::size_t end = 0;
@@ -54,25 +54,25 @@ class Changes {
   std::vector<bool> free_;
 };
 
-absl::Status Watch(ServerCore& core, const v1::CheckMotionsRequest& request, const Gone& gone,
+absl::Status Watch(ServerCore& core, const v1::CheckMotionsRequest& request,
+                   grpc::ServerContext& context,
                    grpc::ServerWriter<v1::WatchMotionsResponse>& writer) {
+  const Gone gone = GoneOf(core, &context);
   const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(request, core);
   if (!question.ok()) return question.status();
   Changes changes(question->motions.knot_counts.size());
   std::uint64_t wanted = 0;
   while (!gone()) {
     const ScenePtr scene = core.versions.WaitFor(wanted, std::chrono::seconds(1), gone);
-    if (core.draining) {
-      return WithReason(absl::UnavailableError("the server is draining"), "DRAINING");
-    }
+    if (core.draining) return DrainingError();
     if (scene == nullptr) continue;
     wanted = scene->version + 1;
-    const auto reply = AskVersion(core, *question, scene, gone);
+    const auto reply = AskVersion(core, *question, scene, WorkOf(core, &context));
     if (!reply.ok()) return reply.status();
     v1::WatchMotionsResponse response;
     if (!changes.Note(*reply, response)) continue;
     Write(*reply, response.mutable_answers());
-    if (!writer.Write(response)) break;
+    if (!WriteTo(writer, response, context, core.stalls)) break;
   }
   return absl::CancelledError("the client has gone");
 }
@@ -91,7 +91,7 @@ grpc::Status CheckHandlers::WatchMotions(grpc::ServerContext* context,
     read.Require(!request->motions().has_selector(), "motions.selector",
                  "is not for watches: they see every version");
     if (!read.ok()) return read.status();
-    const absl::Status status = Watch(core_, request->motions(), GoneOf(context), *writer);
+    const absl::Status status = Watch(core_, request->motions(), *context, *writer);
     return absl::IsInvalidArgument(status) || absl::IsNotFound(status)
                ? WithFieldPrefix("motions.", status)
                : status;

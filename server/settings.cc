@@ -68,6 +68,9 @@ std::vector<Setting> ServerSettings() {
                        Range{0, 19}),
       CLEARWAY_SETTING("kept_versions", kept_versions, "older versions kept for mirrors",
                        Range{0, 10'000}),
+      CLEARWAY_SETTING("drain_s", drain,
+                       "seconds that calls and accepted frames have to end after SIGTERM",
+                       (Range{0, 600})),
       CLEARWAY_SETTING("keepalive.time_s", keepalive.time,
                        "seconds without a sign of a client before the server pings it",
                        (Range{1, 3600})),
@@ -167,6 +170,8 @@ std::vector<Setting> LimitSettings() {
       // gRPC counts bytes in an int, and refuses twice as much by itself.
       CLEARWAY_LIMIT(max_message_bytes, (Range{1, 1 << 30}), "of a request"),
       CLEARWAY_LIMIT(max_points_per_frame, kCount, "points in a frame"),
+      CLEARWAY_LIMIT(max_ray_voxels, (Range{1, 1e15}),
+                     "voxels that the rays of a frame or query pass, all in all"),
       CLEARWAY_LIMIT(max_objects, kCount, "objects in the scene, motions and poses in a frame"),
       // Mirrors refuse scenes that reach further than 1e6 m.
       CLEARWAY_LIMIT(max_coordinate_m, (Range{1e-3, 1e6}), "largest coordinate of a position"),
@@ -194,6 +199,8 @@ std::vector<Setting> LimitSettings() {
       CLEARWAY_LIMIT(max_plans, kAtOnce, "plans at once"),
       CLEARWAY_LIMIT(max_planning_s, kSeconds, "longest time to think of a plan"),
       CLEARWAY_LIMIT(max_watch_streams, kAtOnce, "watches of motions at once"),
+      CLEARWAY_LIMIT(max_stall_s, (Range{0.1, 3600}),
+                     "how long a stream's client may read nothing of what is written to it"),
       CLEARWAY_LIMIT(max_stamp_jump_s, (Range{1e-3, 1e9}),
                      "how far a frame's stamp may lie after the scene's newest"),
       CLEARWAY_LIMIT(late_window_s, (Range{0, 10}),

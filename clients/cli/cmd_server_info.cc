@@ -24,6 +24,7 @@ struct Flags {
 Json LimitsJson(const ServerLimits& l) {
   return {{"max_message_bytes", l.max_message_bytes},
           {"max_points_per_frame", l.max_points_per_frame},
+          {"max_ray_voxels", l.max_ray_voxels},
           {"max_objects", l.max_objects},
           {"max_coordinate_m", l.max_coordinate_m},
           {"max_blocks", l.max_blocks},
@@ -47,6 +48,7 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_plans", l.max_plans},
           {"max_planning_s", l.max_planning_s},
           {"max_watch_streams", l.max_watch_streams},
+          {"max_stall_s", l.max_stall_s},
           {"max_stamp_jump_s", l.max_stamp_jump_s},
           {"late_window_s", l.late_window_s}};
 }

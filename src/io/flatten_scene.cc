@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "clearway/scene/timed_scene.h"
 
 namespace clearway {
 namespace {
@@ -40,13 +41,15 @@ void Block(VoxelMap& map, VoxelKey key) {
   if (map.State(key) != VoxelState::kOccupied) map.Set(key, map.model().clamp_max);
 }
 
-void BlockInBox(const SceneAtTime& scene, VoxelKey first, VoxelKey last,
+constexpr std::int32_t kVoxelsPerLook = 64;
+
+void BlockInBox(TimedScene& scene, Time time, VoxelKey first, VoxelKey last,
                 const std::function<bool()>& cancelled, VoxelMap& map) {
   for (std::int32_t z = first.z; z <= last.z; ++z) {
     for (std::int32_t y = first.y; y <= last.y; ++y) {
-      if (cancelled()) return;
       for (std::int32_t x = first.x; x <= last.x; ++x) {
-        const SpaceStatus status = scene.At(map.grid().CenterOf({x, y, z})).status;
+        if ((x - first.x) % kVoxelsPerLook == 0 && cancelled()) return;
+        const SpaceStatus status = scene.At(map.grid().CenterOf({x, y, z}), time).status;
         if (status == SpaceStatus::kOccupied || status == SpaceStatus::kBeyondHorizon) {
           Block(map, {x, y, z});
         }
@@ -104,8 +107,10 @@ absl::StatusOr<VoxelMap> FlattenScene(const SceneAtTime& scene, std::int64_t max
         absl::StrCat("the objects' boxes and keep-out zones hold about ", voxels,
                      " voxels; the limit is ", max_voxels));
   }
+  TimedScene timed(scene.scene(), scene.time(), scene.time());
   for (const Aabb& box : boxes) {
-    BlockInBox(scene, map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), cancelled, map);
+    BlockInBox(timed, scene.time(), map.grid().KeyOf(box.min), map.grid().KeyOf(box.max), cancelled,
+               map);
     if (cancelled()) return absl::CancelledError("the export was cancelled");
   }
   for (const SceneAtTime::Placed& placed : scene.objects()) {

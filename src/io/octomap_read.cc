@@ -25,11 +25,12 @@ VoxelKey ChildBase(VoxelKey base, int depth, int i) {
 // Collects leaves, which come subtree by subtree, into blocks.
 class MapFiller {
  public:
-  MapFiller(VoxelMap& map, std::int64_t max_voxels)
-      : map_(map), max_blocks_(max_voxels / kVoxelsPerBlock) {}
+  MapFiller(VoxelMap& map, std::int64_t max_voxels, const std::function<bool()>& cancelled)
+      : map_(map), max_blocks_(max_voxels / kVoxelsPerBlock), cancelled_(cancelled) {}
 
-  // Fills the leaf's cube; false if the map would exceed its limit.
+  // Fills the leaf's cube; false if the map would exceed its limit, or once cancelled.
   bool Fill(VoxelKey base, int depth, LogOdds value) {
+    if (Cancelled()) return false;
     if (depth > kBlockDepth) return FillInBlock(base, kDepth - depth, value);
     const int levels = kBlockDepth - depth;
     if (!Reserve(std::int64_t{1} << (3 * levels))) return false;
@@ -40,6 +41,7 @@ class MapFiller {
     for (std::int32_t z = 0; z < width; ++z) {
       for (std::int32_t y = 0; y < width; ++y) {
         for (std::int32_t x = 0; x < width; ++x) {
+          if (Cancelled()) return false;
           map_.PutBlock({first.x + x, first.y + y, first.z + z}, block);
         }
       }
@@ -52,7 +54,15 @@ class MapFiller {
     open_ = false;
   }
 
+  bool cancelled() const { return is_cancelled_; }
+
  private:
+  static constexpr int kFillsPerLook = 256;  // of a block at most
+
+  bool Cancelled() {
+    is_cancelled_ = is_cancelled_ || (++fills_ % kFillsPerLook == 0 && cancelled_());
+    return is_cancelled_;
+  }
   bool Reserve(std::int64_t blocks) {
     blocks_ += blocks;
     return blocks_ <= max_blocks_;
@@ -77,7 +87,9 @@ class MapFiller {
 
   VoxelMap& map_;
   std::int64_t max_blocks_;
-  std::int64_t blocks_ = 0;
+  const std::function<bool()>& cancelled_;
+  std::int64_t blocks_ = 0, fills_ = 0;
+  bool is_cancelled_ = false;
   bool open_ = false;
   BlockKey key_;
   VoxelBlock block_;
@@ -87,13 +99,13 @@ class MapFiller {
 class TreeReader {
  public:
   TreeReader(const std::string& name, std::string_view bytes, const OctomapHeader& header,
-             const OctomapLimits& limits, OctomapFile& file)
+             const OctomapLimits& limits, const std::function<bool()>& cancelled, OctomapFile& file)
       : name_(name),
         bytes_(bytes),
         header_(header),
         limits_(limits),
         file_(file),
-        filler_(file.map, limits.max_voxels),
+        filler_(file.map, limits.max_voxels, cancelled),
         at_(header.data_begin),
         extra_bytes_(header.tree_type == "ColorOcTree" ? 3 : 0) {}
 
@@ -170,6 +182,10 @@ class TreeReader {
 
   bool Leaf(VoxelKey base, int depth, LogOdds value) {
     if (filler_.Fill(base, depth, value)) return true;
+    if (filler_.cancelled()) {
+      error_ = absl::CancelledError(absl::StrCat(name_, ": reading it was cancelled"));
+      return false;
+    }
     error_ = absl::ResourceExhaustedError(absl::StrCat(
         name_, ", byte ", at_, ": the tree fills more than ", limits_.max_voxels / kVoxelsPerBlock,
         " blocks of 8 x 8 x 8 voxels, the limit"));
@@ -196,12 +212,13 @@ class TreeReader {
 }  // namespace
 
 absl::StatusOr<OctomapFile> ParseOctomap(const std::string& name, std::string_view bytes,
-                                         const OccupancyModel& model, const OctomapLimits& limits) {
+                                         const OccupancyModel& model, const OctomapLimits& limits,
+                                         const std::function<bool()>& cancelled) {
   const absl::StatusOr<OctomapHeader> header = ParseOctomapHeader(name, bytes);
   if (!header.ok()) return header.status();
   OctomapFile file{header->format, header->tree_type, VoxelMap(header->resolution_m, model), 0,
                    header->unknown_keys};
-  const absl::Status status = TreeReader(name, bytes, *header, limits, file).Read();
+  const absl::Status status = TreeReader(name, bytes, *header, limits, cancelled, file).Read();
   if (!status.ok()) return status;
   return file;
 }

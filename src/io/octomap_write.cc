@@ -1,20 +1,18 @@
-#include <octomap/OcTree.h>
-
-#include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <iterator>
-#include <sstream>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
 #include "clearway/io/file_type.h"
 #include "clearway/io/flatten_scene.h"
 #include "clearway/io/octomap_file.h"
+#include "io/octomap_nodes.h"
 
 namespace clearway {
 namespace {
 
-constexpr std::int32_t kHalfWidth = 1 << 15;  // OctoMap's tree_max_val
+constexpr std::int32_t kHalfWidth = kOctomapHalfWidth;
 
 bool Fits(VoxelKey key) {
   const auto fits = [](std::int32_t i) { return i >= -kHalfWidth && i < kHalfWidth; };
@@ -36,105 +34,118 @@ absl::Status CheckFits(const VoxelMap& map) {
   return status;
 }
 
-// OctoMap's tree, into which whole blocks of one value go as the leaves that pruning would make of
-// them: it takes some 50 bytes a node, and large maps are mostly such blocks.
-class Tree : public octomap::OcTree {
- public:
-  using OcTree::OcTree;
-
-  // Nothing of the block's cube may be there yet.
-  void AddBlock(const octomap::OcTreeKey& key, float log_odds) {
-    if (root == nullptr) {
-      root = new octomap::OcTreeNode();
-      ++tree_size;
-    }
-    octomap::OcTreeNode* node = root;
-    for (int level = static_cast<int>(tree_depth) - 1; level >= kBlockBits; --level) {
-      const unsigned child = octomap::computeChildIdx(key, level);
-      node =
-          nodeChildExists(node, child) ? getNodeChild(node, child) : createNodeChild(node, child);
-    }
-    node->setLogOdds(log_odds);
-    size_changed = true;
-  }
-
-  // OctoMap's own ends at the first level, from the voxels up, of which it prunes nothing.
-  void PruneAllLevels() {
-    if (root == nullptr) return;
-    unsigned pruned = 0;
-    for (unsigned depth = tree_depth - 1; depth > 0; --depth) pruneRecurs(root, 0, depth, pruned);
-  }
-};
-
-// What is written of a block's observed voxels.
-float ValueOf(const VoxelBlock& block, int index, OctomapFormat format) {
-  if (format == OctomapFormat::kFull) return static_cast<float>(Dequantized(block.log_odds[index]));
-  // Free and occupied alone: any two values on either side of OctoMap's threshold, which is 0.
-  return block.occupied.Test(index) ? 1.0F : -1.0F;
-}
-
-bool IsUniform(const VoxelBlock& block, OctomapFormat format) {
-  if (block.observed.Count() != kVoxelsPerBlock) return false;
-  if (format == OctomapFormat::kBinary) {
-    return !block.occupied.Any() || block.occupied.Count() == kVoxelsPerBlock;
-  }
-  return std::ranges::count(block.log_odds, block.log_odds[0]) == kVoxelsPerBlock;
-}
-
-// Inner nodes hold the maximum of their children, as OctoMap's searches expect.
-void Fill(const VoxelMap& map, OctomapFormat format, Tree& tree) {
-  // The map's values have been clamped by its own model; OctoMap must not clamp them again.
-  tree.setClampingThresMin(1e-4);
-  tree.setClampingThresMax(1 - 1e-4);
-  const auto key_of = [](VoxelKey voxel) {
-    return octomap::OcTreeKey(static_cast<octomap::key_type>(voxel.x + kHalfWidth),
-                              static_cast<octomap::key_type>(voxel.y + kHalfWidth),
-                              static_cast<octomap::key_type>(voxel.z + kHalfWidth));
-  };
-  map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-    if (IsUniform(block, format)) {
-      tree.AddBlock(key_of(VoxelAt(key, 0)), ValueOf(block, 0, format));
-      return;
-    }
-    block.observed.ForEach([&](int index) {
-      tree.setNodeValue(key_of(VoxelAt(key, index)), ValueOf(block, index, format),
-                        /*lazy_eval=*/true);
-    });
-  });
-  tree.updateInnerOccupancy();
-  tree.PruneAllLevels();
-}
-
-// As OctoMap writes it, but with the resolution's digits in full (six would shift the grid), and
-// without the message on stderr.
-std::string Header(const octomap::OcTree& tree, OctomapFormat format) {
+// As OctoMap writes it, but with the resolution's digits in full (six would shift the grid).
+std::string Header(const OctomapNodes& nodes, double resolution_m, OctomapFormat format) {
   char resolution[32];
-  const auto end = std::to_chars(resolution, std::end(resolution), tree.getResolution()).ptr;
+  const auto end = std::to_chars(resolution, std::end(resolution), resolution_m).ptr;
   return absl::StrCat(
       format == OctomapFormat::kBinary ? "# Octomap OcTree binary file" : "# Octomap OcTree file",
       "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n",
-      "id OcTree\nsize ", tree.size(), "\nres ", std::string(resolution, end), "\ndata\n");
+      "id OcTree\nsize ", nodes.Empty() ? 0 : nodes.root().count, "\nres ",
+      std::string(resolution, end), "\ndata\n");
 }
+
+// Writes the nodes from the root down, as OctoMap's writeData and writeBinaryData do.
+class Writer {
+ public:
+  Writer(const OctomapNodes& nodes, OctomapFormat format, const ByteSink& sink)
+      : nodes_(nodes), format_(format), sink_(sink) {}
+
+  // False once the sink has said so.
+  bool Write(std::string_view header) {
+    pending_.append(header);
+    if (!nodes_.Empty()) {
+      if (format_ == OctomapFormat::kFull) PutNode(nodes_.root());
+      WriteBelow(OctomapNodes::kRootLevel, 0);
+    }
+    return Flush();
+  }
+
+ private:
+  static constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
+
+  void WriteBelow(int level, std::size_t i) {
+    if (level == 0) {
+      WriteWithin(OctomapBlock(nodes_.block(i), format_), 0, 0);
+      return;
+    }
+    std::size_t next = nodes_.FirstChildOf(level, i);
+    const auto below = [&](std::size_t, bool leaf) {
+      if (!leaf) WriteBelow(level - 1, next);
+      ++next;
+    };
+    WriteChildren(nodes_.ChildrenOf(level, i), below);
+  }
+
+  void WriteWithin(const OctomapBlock& block, int level, std::size_t i) {
+    const auto below = [&](std::size_t child, bool leaf) {
+      if (!leaf) WriteWithin(block, level + 1, 8 * i + child);
+    };
+    WriteChildren(block.ChildrenOf(level, i), below);
+  }
+
+  // Which children a node has, and with below(child, leaf) each of them in turn.
+  template <class Below>
+  void WriteChildren(const OctomapChildren& children, Below&& below) {
+    unsigned exists = 0, codes = 0;
+    for (std::size_t c = 0; c < children.size(); ++c) {
+      if (!children[c].exists()) continue;
+      exists |= 1u << c;
+      codes |= (!children[c].leaf ? 3u : children[c].log_odds >= 0 ? 2u : 1u) << 2 * c;
+    }
+    const bool full = format_ == OctomapFormat::kFull;
+    pending_.push_back(static_cast<char>(full ? exists : codes & 0xff));
+    if (!full) pending_.push_back(static_cast<char>(codes >> 8));
+    if (pending_.size() >= kPieceBytes) Flush();
+    for (std::size_t c = 0; c < children.size() && go_on_; ++c) {
+      if (!children[c].exists()) continue;
+      if (full) PutNode(children[c]);
+      below(c, children[c].leaf);
+    }
+  }
+
+  void PutNode(const OctomapNode& node) {
+    char bytes[sizeof node.log_odds];
+    std::memcpy(bytes, &node.log_odds, sizeof bytes);
+    pending_.append(bytes, sizeof bytes);
+    if (node.leaf) pending_.push_back(0);  // it has no children
+  }
+
+  bool Flush() {
+    go_on_ = go_on_ && sink_(pending_);
+    pending_.clear();
+    return go_on_;
+  }
+
+  const OctomapNodes& nodes_;
+  const OctomapFormat format_;
+  const ByteSink& sink_;
+  std::string pending_;
+  bool go_on_ = true;
+};
 
 }  // namespace
 
-absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat format) {
-  const absl::Status status = CheckFits(map);
-  if (!status.ok()) return status;
-  std::ostringstream out(std::ios::binary);
-  try {
-    Tree tree(map.grid().resolution_m());
-    Fill(map, format, tree);
-    out << Header(tree, format);
-    if (format == OctomapFormat::kBinary) {
-      tree.writeBinaryData(out);
-    } else {
-      tree.writeData(out);
-    }
-  } catch (const std::exception& error) {  // memory above all
-    return absl::InternalError(absl::StrCat("OctoMap: ", error.what()));
+absl::Status WriteOctomap(const VoxelMap& map, OctomapFormat format, const ByteSink& sink,
+                          const std::function<bool()>& cancelled) {
+  if (const absl::Status status = CheckFits(map); !status.ok()) return status;
+  const OctomapNodes nodes(map, format, cancelled);
+  const std::string header = Header(nodes, map.grid().resolution_m(), format);
+  if (cancelled() || !Writer(nodes, format, sink).Write(header)) {
+    return absl::CancelledError("the map's file was cancelled");
   }
-  return std::move(out).str();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat format) {
+  std::string bytes;
+  const auto append = [&](std::string_view piece) {
+    bytes.append(piece);
+    return true;
+  };
+  const absl::Status status = WriteOctomap(map, format, append);
+  if (!status.ok()) return status;
+  return bytes;
 }
 
 absl::Status WriteOctomap(const std::filesystem::path& path, const VoxelMap& map) {

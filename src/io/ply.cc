@@ -40,67 +40,111 @@ constexpr std::array<Face, 6> kFaces = {{{{-1, 0, 0}, {0, 4, 6, 2}},
                                          {{0, 0, -1}, {0, 2, 3, 1}},
                                          {{0, 0, 1}, {4, 5, 7, 6}}}};
 
-class PlyBuilder {
+// Keys of all blocks.
+constexpr std::int32_t kFar = kMaxVoxelIndex;
+constexpr BlockKey kFirstBlock{-kFar, -kFar, -kFar}, kLastBlock{kFar, kFar, kFar};
+
+// Goes through the layers' occupied voxels once for each part of the file.
+class PlyWriter {
  public:
-  void AddPoints(const PlyLayer& layer) {
-    ForEachOccupied(*layer.map_M,
-                    [&](VoxelKey key) { AddVertex(layer, layer.map_M->grid().CenterOf(key)); });
+  PlyWriter(std::span<const PlyLayer> layers, const ByteSink& sink)
+      : layers_(layers), sink_(sink) {}
+
+  // Both are false once the sink has said so.
+  bool WritePoints() {
+    std::int64_t vertices = 0;
+    for (const PlyLayer& layer : layers_) vertices += layer.map_M->occupied_count();
+    pending_ =
+        absl::StrCat(kBegin, "element vertex ", vertices, "\n", kPosition, kColorAndObject, kEnd);
+    ForEachOccupied([&](const PlyLayer& layer, VoxelKey key) {
+      PutVertex(layer, layer.map_M->grid().CenterOf(key));
+    });
+    return Flush();
   }
 
-  void AddCubes(const PlyLayer& layer) {
-    ForEachOccupied(*layer.map_M, [&](VoxelKey key) { AddCube(layer, key); });
-  }
-
-  std::string Build(PlyStyle style) const {
-    std::string ply =
-        absl::StrCat(kBegin, "element vertex ", vertex_count_, "\n", kPosition, kColorAndObject);
-    if (style == PlyStyle::kCubes) {
-      absl::StrAppend(&ply, "element face ", face_count_,
-                      "\nproperty list uchar uint vertex_indices\n");
-    }
-    ply += kEnd;
-    return ply + vertices_ + faces_;
+  bool WriteCubes() {
+    std::int64_t cubes = 0, faces = 0;
+    ForEachExposed([&](const PlyLayer&, VoxelKey, unsigned exposed) {
+      ++cubes;
+      faces += std::popcount(exposed);
+    });
+    pending_ =
+        absl::StrCat(kBegin, "element vertex ", kCorners * cubes, "\n", kPosition, kColorAndObject,
+                     "element face ", faces, "\nproperty list uchar uint vertex_indices\n", kEnd);
+    ForEachExposed([&](const PlyLayer& layer, VoxelKey key, unsigned) { PutCorners(layer, key); });
+    std::uint32_t first = 0;
+    ForEachExposed([&](const PlyLayer&, VoxelKey, unsigned exposed) {
+      PutFaces(exposed, first);
+      first += kCorners;
+    });
+    return Flush();
   }
 
  private:
+  static constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
+  static constexpr int kCorners = 8;
+
+  // Calls visit(layer, key) as long as the sink wants more.
   template <class Visit>
-  static void ForEachOccupied(const VoxelMap& map, Visit&& visit) {
-    map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
-      block.occupied.ForEach([&](int index) { visit(VoxelAt(key, index)); });
+  void ForEachOccupied(Visit&& visit) {
+    for (const PlyLayer& layer : layers_) {
+      layer.map_M->blocks().AnyOccupiedIn(
+          kFirstBlock, kLastBlock, [&](BlockKey key, const VoxelBlock& block) {
+            block.occupied.ForEach([&](int index) { visit(layer, VoxelAt(key, index)); });
+            if (pending_.size() >= kPieceBytes) Flush();
+            return !go_on_;
+          });
+    }
+  }
+
+  // Likewise visit(layer, key, faces), a bit for each of kFaces, where there are any.
+  template <class Visit>
+  void ForEachExposed(Visit&& visit) {
+    ForEachOccupied([&](const PlyLayer& layer, VoxelKey key) {
+      unsigned exposed = 0;
+      for (std::size_t f = 0; f < kFaces.size(); ++f) {
+        const VoxelKey step = kFaces[f].step;
+        const VoxelKey neighbour{key.x + step.x, key.y + step.y, key.z + step.z};
+        if (layer.map_M->State(neighbour) != VoxelState::kOccupied) exposed |= 1u << f;
+      }
+      if (exposed != 0) visit(layer, key, exposed);
     });
   }
 
-  void AddVertex(const PlyLayer& layer, const Eigen::Vector3d& p_M) {
+  void PutVertex(const PlyLayer& layer, const Eigen::Vector3d& p_M) {
     const Eigen::Vector3f p_W = (layer.T_W_M * p_M).cast<float>();
-    for (int i = 0; i < 3; ++i) Put(vertices_, p_W[i]);
-    for (std::uint8_t channel : layer.color) Put(vertices_, channel);
-    Put(vertices_, layer.object);
-    ++vertex_count_;
+    for (int i = 0; i < 3; ++i) Put(pending_, p_W[i]);
+    for (std::uint8_t channel : layer.color) Put(pending_, channel);
+    Put(pending_, layer.object);
   }
 
-  void AddCube(const PlyLayer& layer, VoxelKey key) {
-    const std::uint32_t first = vertex_count_;
-    bool exposed = false;
-    for (const Face& face : kFaces) {
-      const VoxelKey neighbour{key.x + face.step.x, key.y + face.step.y, key.z + face.step.z};
-      if (layer.map_M->State(neighbour) == VoxelState::kOccupied) continue;
-      exposed = true;
-      Put(faces_, std::uint8_t{4});
-      for (int corner : face.corners) Put(faces_, first + static_cast<std::uint32_t>(corner));
-      ++face_count_;
-    }
-    if (!exposed) return;
+  void PutCorners(const PlyLayer& layer, VoxelKey key) {
     const Aabb box = layer.map_M->grid().BoxOf(key);
-    for (int i = 0; i < 8; ++i) {
-      AddVertex(layer, {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+    for (int i = 0; i < kCorners; ++i) {
+      PutVertex(layer, {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
                         i & 4 ? box.max.z() : box.min.z()});
     }
   }
 
-  std::string vertices_;
-  std::string faces_;
-  std::uint32_t vertex_count_ = 0;
-  std::uint32_t face_count_ = 0;
+  void PutFaces(unsigned exposed, std::uint32_t first) {
+    for (std::size_t f = 0; f < kFaces.size(); ++f) {
+      if ((exposed >> f & 1) == 0) continue;
+      Put(pending_, std::uint8_t{4});
+      for (int corner : kFaces[f].corners)
+        Put(pending_, first + static_cast<std::uint32_t>(corner));
+    }
+  }
+
+  bool Flush() {
+    go_on_ = go_on_ && sink_(pending_);
+    pending_.clear();
+    return go_on_;
+  }
+
+  std::span<const PlyLayer> layers_;
+  const ByteSink& sink_;
+  std::string pending_;
+  bool go_on_ = true;
 };
 
 }  // namespace
@@ -118,12 +162,20 @@ std::array<std::uint8_t, 3> PlyColorOf(ObjectId object) {
   return kPalette[static_cast<std::size_t>(object) % kPalette.size()];
 }
 
+absl::Status WritePly(std::span<const PlyLayer> layers, PlyStyle style, const ByteSink& sink) {
+  PlyWriter writer(layers, sink);
+  const bool whole = style == PlyStyle::kPoints ? writer.WritePoints() : writer.WriteCubes();
+  return whole ? absl::OkStatus() : absl::CancelledError("the PLY file was cancelled");
+}
+
 std::string SerializePly(std::span<const PlyLayer> layers, PlyStyle style) {
-  PlyBuilder builder;
-  for (const PlyLayer& layer : layers) {
-    style == PlyStyle::kPoints ? builder.AddPoints(layer) : builder.AddCubes(layer);
-  }
-  return builder.Build(style);
+  std::string ply;
+  const absl::Status never_cancelled = WritePly(layers, style, [&](std::string_view piece) {
+    ply.append(piece);
+    return true;
+  });
+  never_cancelled.IgnoreError();
+  return ply;
 }
 
 absl::StatusOr<std::string> WithOriginAdded(std::string_view ply, const Eigen::Vector3d& origin_m) {

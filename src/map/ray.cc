@@ -24,6 +24,18 @@ LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eige
   return {origin + direction * static_cast<float>(options.max_range_m), false};
 }
 
+double VoxelsPassed(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options) {
+  const float most_m = options.max_range_m < 0 ? std::numeric_limits<float>::infinity()
+                                               : static_cast<float>(options.max_range_m);
+  double steps_m = 0;
+  for (std::size_t i = 0; i < cloud.ends.size(); ++i) {
+    const Eigen::Vector3f ray = cloud.ends[i] - cloud.origins[cloud.origins.size() == 1 ? 0 : i];
+    const float length_m = ray.norm();
+    steps_m += ray.cwiseAbs().sum() * (length_m > most_m ? most_m / length_m : 1.0f);
+  }
+  return steps_m / grid.resolution_m() + static_cast<double>(cloud.ends.size());
+}
+
 // OctoMap mixes single and double precision here; so must we, to round alike. StartLanes does the
 // same for eight rays.
 RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin,

@@ -12,17 +12,16 @@ void RaySector::Clear() {
 
 const std::vector<BitWindow::Block>& RaySector::Mark(const VoxelGrid& grid,
                                                      std::atomic<std::int64_t>& left) {
-  const std::int64_t most = left;
-  if (size() == 0 || most < 0) return blocks_;
+  if (size() == 0 || left < 0) return blocks_;
   rays_.Finish();
   const RayBoxes boxes = rays_.BoxesAround();
   const auto [first, last] = BlocksAround(grid, boxes);
   if (BitWindow::Fits(first, last)) {
     MarkInWindow(grid, boxes, first, last);
+    left -= static_cast<std::int64_t>(blocks_.size());
   } else {
-    MarkSparsely(grid, most);
+    MarkSparsely(grid, left);
   }
-  left -= static_cast<std::int64_t>(blocks_.size());
   return blocks_;
 }
 
@@ -34,14 +33,17 @@ void RaySector::MarkInWindow(const VoxelGrid& grid, const RayBoxes& boxes, Block
   for (std::size_t row = 0; row < window_.rows(); ++row) window_.TakeRow(row, blocks_);
 }
 
-void RaySector::MarkSparsely(const VoxelGrid& grid, std::int64_t most) {
+void RaySector::MarkSparsely(const VoxelGrid& grid, std::atomic<std::int64_t>& left) {
   ScanUpdate update;
-  const auto too_many = [&] { return static_cast<std::int64_t>(update.keys().size()) > most; };
+  bool too_many = false;
   const auto mark = [&](VoxelKey key) {
-    if (!too_many()) update.MarkFree(key);
+    const std::size_t before = update.keys().size();
+    update.MarkFree(key);
+    if (update.keys().size() != before) too_many = --left < 0;
+    return !too_many;
   };
   rays_.ForEach([&](const RaySegment& ray) {
-    if (!too_many()) WalkRay(grid, ray.origin, ray.end, mark);
+    if (!too_many) WalkRay(grid, ray.origin, ray.end, mark);
   });
   for (std::size_t i = 0; i < update.keys().size(); ++i) {
     blocks_.push_back({update.keys()[i], update.block(i).free});

@@ -37,8 +37,8 @@ class RaySector {
 
  private:
   void MarkInWindow(const VoxelGrid& grid, const RayBoxes& boxes, BlockKey first, BlockKey last);
-  // Without a window, which would be too large. Stops after `most` blocks and one.
-  void MarkSparsely(const VoxelGrid& grid, std::int64_t most);
+  // Without a window, which would be too large. Stops once nothing is left.
+  void MarkSparsely(const VoxelGrid& grid, std::atomic<std::int64_t>& left);
 
   RayRounds rays_;
   BitWindow window_;

@@ -1,6 +1,7 @@
 #include "scene/map_delta.h"
 
 #include <cstring>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 
@@ -40,20 +41,29 @@ LogOdds ValueOf(const VoxelBlock& block, int index, const OccupancyModel& model,
 
 }  // namespace
 
-MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to, MapDetail detail) {
-  MapDelta delta;
+bool DiffMaps(const VoxelMap& from, const VoxelMap& to, MapDetail detail,
+              const std::function<bool(BlockDelta)>& take) {
   const auto add = [&](BlockKey key, const VoxelBlock* before, const VoxelBlock* after) {
     if (before == nullptr) before = &kEmptyBlock;
     if (after == nullptr) after = &kEmptyBlock;
     const BlockMask changed = Changed(*before, *after, detail);
-    if (!changed.Any()) return;
-    BlockDelta& block = delta.emplace_back(BlockDelta{key, changed, changed, {}});
+    if (!changed.Any()) return false;
+    BlockDelta block{key, changed, changed, {}};
     for (int z = 0; z < 8; ++z) block.observed.words[z] &= after->observed.words[z];
     block.log_odds.reserve(block.observed.Count());
     block.observed.ForEach(
         [&](int index) { block.log_odds.push_back(ValueOf(*after, index, to.model(), detail)); });
+    return !take(std::move(block));
   };
-  BlockTree::ForEachDifference(from.blocks(), to.blocks(), add);
+  return !BlockTree::AnyDifference(from.blocks(), to.blocks(), add);
+}
+
+MapDelta DiffMaps(const VoxelMap& from, const VoxelMap& to, MapDetail detail) {
+  MapDelta delta;
+  DiffMaps(from, to, detail, [&](BlockDelta block) {
+    delta.push_back(std::move(block));
+    return true;
+  });
   return delta;
 }
 

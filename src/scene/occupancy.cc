@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clearway/scene/timed_scene.h"
+#include "scene/query_ray.h"
 
 namespace clearway {
 namespace {
@@ -106,35 +107,8 @@ std::vector<PointOccupancy> OccupancyOf(const SceneSnapshot& scene,
 
 RayAnswer CastQueryRay(const SceneAtTime& scene, const Eigen::Vector3d& origin_W,
                        const Eigen::Vector3d& direction_W, double max_range_m) {
-  RayAnswer answer;
-  const Eigen::Vector3d unit = direction_W.normalized();
-  const VoxelGrid& grid = scene.scene().static_map_W.grid();
-  Aabb space = scene.scene().params.bounds_W;
-  space.min = space.min.cwiseMax(-grid.limit_m());
-  space.max = space.max.cwiseMin(grid.limit_m());
-  if (!space.Contains(origin_W)) {
-    answer.first_unknown_m = 0;
-    return answer;
-  }
-  const LinePart inside = Clip(space, origin_W, unit, {0, max_range_m});
-  const Eigen::Vector3d end_W = origin_W + inside.end * unit;
-
-  const auto look_at = [&](VoxelKey key) {
-    if (answer.first_hit_m) return;
-    const LinePart in_voxel = Clip(grid.BoxOf(key), origin_W, unit, inside);
-    if (in_voxel.begin > in_voxel.end) return;  // the walk's float end strays from the exact ray
-    const double middle_m = 0.5 * (in_voxel.begin + in_voxel.end);
-    const PointOccupancy found = scene.At(origin_W + middle_m * unit);
-    if (found.status == SpaceStatus::kOccupied) {
-      answer.first_hit_m = in_voxel.begin;
-      answer.object = found.object;
-    } else if (found.status != SpaceStatus::kFree && !answer.first_unknown_m) {
-      answer.first_unknown_m = in_voxel.begin;
-    }
-  };
-  WalkRay(grid, origin_W.cast<float>(), end_W.cast<float>(), look_at);
-  look_at(grid.KeyOf(end_W));
-  return answer;
+  return QueryRay(scene.scene(), origin_W, direction_W, max_range_m)
+      .Cast([&](const Eigen::Vector3d& p_W) { return scene.At(p_W); }, [] { return false; });
 }
 
 }  // namespace clearway

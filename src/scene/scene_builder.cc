@@ -116,6 +116,10 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   report.T_W_S = frame.T_W_S;
   report.late_by = now - frame.stamp;
   LabelledCloud cloud = PlaceCloud(frame, scene_.params, report);
+  const VoxelGrid& grid = scene_.static_map_W.grid();
+  if (auto status = CheckRays(grid, cloud.Rays(), scene_.params.rays, limits_); !status.ok()) {
+    return status;
+  }
   LabelDoubts doubts;
   if (scene_.params.filter_labels) {
     doubts = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);

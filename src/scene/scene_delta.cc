@@ -1,6 +1,7 @@
 #include "clearway/scene/scene_delta.h"
 
 #include <map>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "scene/map_delta.h"
@@ -34,23 +35,49 @@ const MovingObject* ObjectUnder(ObjectId first_id, const SceneSnapshot& scene) {
 
 }  // namespace
 
+SceneDifference::SceneDifference(const SceneSnapshot* from, const SceneSnapshot& to,
+                                 MapDetail detail)
+    : empty_(SceneSnapshot::Empty(to.params)),
+      from_(from == nullptr ? empty_ : *from),
+      to_(to),
+      detail_(detail) {}
+
+SceneDelta SceneDifference::Head() const {
+  SceneDelta head;
+  head.from_version = from_.version;
+  head.to_version = to_.version;
+  head.stamp = to_.stamp;
+  if (&from_ == &empty_ || !(from_.params == to_.params)) head.params = to_.params;
+  if (!(from_.dynamic_W == to_.dynamic_W)) head.dynamic_W = to_.dynamic_W;
+  for (const auto& object : from_.objects) {
+    if (ObjectUnder(object->id, to_) == nullptr) head.removed.push_back(object->id);
+  }
+  return head;
+}
+
+bool SceneDifference::ForEachBlock(const std::function<bool(BlockDelta)>& take) const {
+  return DiffMaps(from_.static_map_W, to_.static_map_W, detail_, take);
+}
+
+bool SceneDifference::ForEachObject(const std::function<bool(ObjectDelta)>& take) const {
+  for (const auto& object : to_.objects) {
+    const MovingObject* before = ObjectUnder(object->id, from_);
+    if (before != object.get() && !take(DiffObjects(before, *object, detail_))) return false;
+  }
+  return true;
+}
+
 SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to, MapDetail detail) {
-  const SceneSnapshot empty = SceneSnapshot::Empty(to.params);
-  const SceneSnapshot& base = from == nullptr ? empty : *from;
-  SceneDelta delta;
-  delta.from_version = base.version;
-  delta.to_version = to.version;
-  delta.stamp = to.stamp;
-  if (from == nullptr || !(from->params == to.params)) delta.params = to.params;
-  delta.static_map_W = DiffMaps(base.static_map_W, to.static_map_W, detail);
-  if (!(base.dynamic_W == to.dynamic_W)) delta.dynamic_W = to.dynamic_W;
-  for (const auto& object : to.objects) {
-    const MovingObject* before = ObjectUnder(object->id, base);
-    if (before != object.get()) delta.objects.push_back(DiffObjects(before, *object, detail));
-  }
-  for (const auto& object : base.objects) {
-    if (ObjectUnder(object->id, to) == nullptr) delta.removed.push_back(object->id);
-  }
+  const SceneDifference difference(from, to, detail);
+  SceneDelta delta = difference.Head();
+  difference.ForEachBlock([&](BlockDelta block) {
+    delta.static_map_W.push_back(std::move(block));
+    return true;
+  });
+  difference.ForEachObject([&](ObjectDelta object) {
+    delta.objects.push_back(std::move(object));
+    return true;
+  });
   return delta;
 }
 

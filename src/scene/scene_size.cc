@@ -4,6 +4,15 @@
 
 namespace clearway {
 
+absl::Status CheckRays(const VoxelGrid& grid, const RayCloud& rays, const RayOptions& options,
+                       const FrameLimits& limits) {
+  const double voxels = VoxelsPassed(grid, rays, options);
+  if (voxels <= static_cast<double>(limits.max_ray_voxels)) return absl::OkStatus();
+  return absl::ResourceExhaustedError(absl::StrCat(
+      "points_m: the rays pass ", static_cast<std::uint64_t>(voxels), " voxels; the limit is ",
+      limits.max_ray_voxels, "; give the scene a max_range_m, or larger voxels"));
+}
+
 std::size_t BlocksOf(const SceneObjects& objects, const SceneObjects& dropped_lately,
                      const Surroundings& around_objects) {
   std::size_t blocks = 0;

@@ -14,7 +14,10 @@ namespace {
 // same number, so does the hash.
 class ContentHasher {
  public:
-  ContentHasher() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
+  explicit ContentHasher(const std::function<bool()>& cancelled)
+      : cancelled_(cancelled), state_(XXH3_createState()) {
+    XXH3_128bits_reset(state_);
+  }
   ~ContentHasher() { XXH3_freeState(state_); }
   ContentHasher(const ContentHasher&) = delete;
   ContentHasher& operator=(const ContentHasher&) = delete;
@@ -59,11 +62,12 @@ class ContentHasher {
   void Add(const VoxelMap& map) {
     Add(map.grid().resolution_m());
     Add(static_cast<std::int64_t>(map.blocks().size()));
-    map.blocks().ForEach([&](BlockKey key, const VoxelBlock& block) {
+    map.blocks().AnyBlock([&](BlockKey key, const VoxelBlock& block) {
       const std::int32_t address[3] = {key.x, key.y, key.z};
       XXH3_128bits_update(state_, address, sizeof address);
       XXH3_128bits_update(state_, block.observed.words.data(), sizeof block.observed.words);
       XXH3_128bits_update(state_, block.log_odds.data(), sizeof block.log_odds);
+      return ++blocks_ % kBlocksPerLook == 0 && cancelled_();
     });
   }
   void Add(const Completion& completion) {
@@ -90,6 +94,10 @@ class ContentHasher {
   }
 
  private:
+  static constexpr int kBlocksPerLook = 1024;
+
+  const std::function<bool()>& cancelled_;
+  std::int64_t blocks_ = 0;
   XXH3_state_t* state_;
 };
 
@@ -240,8 +248,8 @@ std::vector<const MovingObject*> SceneSnapshot::PartsOf(ObjectId whole) const {
   return parts;
 }
 
-std::string SceneSnapshot::Hash() const {
-  ContentHasher hasher;
+std::string SceneSnapshot::Hash(const std::function<bool()>& cancelled) const {
+  ContentHasher hasher(cancelled);
   hasher.Add(stamp);
   hasher.Add(params);
   hasher.Add(static_map_W);

@@ -1,5 +1,7 @@
 #include "clearway/scene/timed_scene.h"
 
+#include "scene/query_ray.h"
+
 namespace clearway {
 
 TimedScene::TimedScene(const SceneSnapshot& scene, Time first, Time last)
@@ -24,6 +26,13 @@ PointOccupancy TimedScene::At(const Eigen::Vector3d& p_W, Time time) {
   PointOccupancy answer;
   At({&p_W, 1}, {&time, 1}, {&answer, 1});
   return answer;
+}
+
+RayAnswer TimedScene::CastRay(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& direction_W,
+                              double max_range_m, Time time,
+                              const std::function<bool()>& cancelled) {
+  return QueryRay(scene_, origin_W, direction_W, max_range_m)
+      .Cast([&](const Eigen::Vector3d& p_W) { return At(p_W, time); }, cancelled);
 }
 
 void TimedScene::At(std::span<const Eigen::Vector3d> points_W, std::span<const Time> times,

@@ -15,24 +15,34 @@ namespace {
 
 constexpr std::size_t kTargetBytes = 1 << 20;  // of a part, as serialized
 
-// Cuts a delta into parts.
+// Cuts a difference into parts.
 class DeltaWriter {
  public:
-  DeltaWriter(const SceneDelta& delta, const std::function<bool(const v1::SceneDeltaPart&)>& send)
-      : delta_(delta), send_(send) {
+  DeltaWriter(const SceneDifference& difference,
+              const std::function<bool(const v1::SceneDeltaPart&)>& send)
+      : difference_(difference), head_(difference.Head()), send_(send) {
     Begin();
-    if (delta.params) Write(*delta.params, part_.mutable_params());
-    part_.set_dynamic_changed(delta.dynamic_W.has_value());
-    part_.mutable_removed_object_ids()->Add(delta.removed.begin(), delta.removed.end());
+    if (head_.params) Write(*head_.params, part_.mutable_params());
+    part_.set_dynamic_changed(head_.dynamic_W.has_value());
+    part_.mutable_removed_object_ids()->Add(head_.removed.begin(), head_.removed.end());
   }
 
   bool Run() {
-    AddMap(kStaticLabel, delta_.static_map_W);
-    if (delta_.dynamic_W) AddDynamic(delta_.dynamic_W->voxels());
-    for (const ObjectDelta& object : delta_.objects) {
+    MapDelta blocks;
+    difference_.ForEachBlock([&](BlockDelta block) {
+      blocks.push_back(std::move(block));
+      if (blocks.size() < kMaxBlocksPerPart) return true;
+      AddBlocks(kStaticLabel, blocks);
+      blocks.clear();
+      return alive_;
+    });
+    if (!blocks.empty() && alive_) AddBlocks(kStaticLabel, blocks);
+    if (head_.dynamic_W) AddDynamic(head_.dynamic_W->voxels());
+    difference_.ForEachObject([&](const ObjectDelta& object) {
       AddObject(object);
       AddMap(object.id, object.map_O);
-    }
+      return alive_;
+    });
     part_.set_last(true);
     return alive_ && send_(part_);
   }
@@ -40,9 +50,9 @@ class DeltaWriter {
  private:
   void Begin() {
     part_.Clear();
-    part_.set_from_version(delta_.from_version);
-    part_.set_to_version(delta_.to_version);
-    part_.set_stamp_ns(ToNanoseconds(delta_.stamp));
+    part_.set_from_version(head_.from_version);
+    part_.set_to_version(head_.to_version);
+    part_.set_stamp_ns(ToNanoseconds(head_.stamp));
     part_.set_part(next_part_++);
     bytes_ = 0;
   }
@@ -55,17 +65,20 @@ class DeltaWriter {
   void AddMap(ObjectId id, const MapDelta& map) {
     for (std::size_t begin = 0; begin < map.size() && alive_; begin += kMaxBlocksPerPart) {
       const std::size_t count = std::min(kMaxBlocksPerPart, map.size() - begin);
-      v1::MapPart* proto = part_.add_maps();
-      proto->set_object_id(id);
-      proto->set_zstd_block_deltas(CompressBlocks(std::span(map).subspan(begin, count)));
-      Added(proto->zstd_block_deltas().size());
+      AddBlocks(id, std::span(map).subspan(begin, count));
     }
+  }
+  void AddBlocks(ObjectId id, std::span<const BlockDelta> blocks) {
+    v1::MapPart* proto = part_.add_maps();
+    proto->set_object_id(id);
+    proto->set_zstd_block_deltas(CompressBlocks(blocks));
+    Added(proto->zstd_block_deltas().size());
   }
   void AddDynamic(std::span<const DynamicVoxel> voxels) {
     constexpr std::size_t kMost = 1 << 15;
     for (; !voxels.empty() && alive_; voxels = voxels.subspan(std::min(kMost, voxels.size()))) {
       v1::DynamicVoxels* proto = part_.add_dynamic();
-      Write(voxels.first(std::min(kMost, voxels.size())), delta_.stamp, proto);
+      Write(voxels.first(std::min(kMost, voxels.size())), head_.stamp, proto);
       Added(proto->ByteSizeLong());
     }
   }
@@ -107,7 +120,8 @@ class DeltaWriter {
     Added(proto->ByteSizeLong());
   }
 
-  const SceneDelta& delta_;
+  const SceneDifference& difference_;
+  const SceneDelta head_;
   const std::function<bool(const v1::SceneDeltaPart&)>& send_;
   v1::SceneDeltaPart part_;
   std::uint32_t next_part_ = 0;
@@ -166,9 +180,9 @@ absl::StatusOr<ObjectDelta> ReadObjectDelta(const std::string& field,
 
 }  // namespace
 
-bool WriteDelta(const SceneDelta& delta,
-                const std::function<bool(const v1::SceneDeltaPart&)>& send) {
-  return DeltaWriter(delta, send).Run();
+bool WriteDifference(const SceneDifference& difference,
+                     const std::function<bool(const v1::SceneDeltaPart&)>& send) {
+  return DeltaWriter(difference, send).Run();
 }
 
 absl::Status DeltaAssembler::Begin(const v1::SceneDeltaPart& part) {

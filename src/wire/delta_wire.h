@@ -19,9 +19,9 @@ inline constexpr std::size_t kMaxBlocksPerPart = 1024;
 inline constexpr std::size_t kMaxPartBytes = 4 << 20;
 
 // Calls `send` with the parts in order, each small enough for gRPC's default message limit of 4 MB;
-// stops when it returns false, and then returns false.
-bool WriteDelta(const SceneDelta& delta,
-                const std::function<bool(const v1::SceneDeltaPart&)>& send);
+// stops when it returns false, and then returns false. Takes the memory of one part.
+bool WriteDifference(const SceneDifference& difference,
+                     const std::function<bool(const v1::SceneDeltaPart&)>& send);
 
 // Puts a delta together again. A value; one thread at a time.
 class DeltaAssembler {

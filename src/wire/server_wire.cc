@@ -8,6 +8,7 @@ namespace {
 void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_message_bytes(limits.max_message_bytes);
   proto->set_max_points_per_frame(limits.max_points_per_frame);
+  proto->set_max_ray_voxels(limits.max_ray_voxels);
   proto->set_max_objects(limits.max_objects);
   proto->set_max_coordinate_m(limits.max_coordinate_m);
   proto->set_max_blocks(limits.max_blocks);
@@ -31,6 +32,7 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_plans(limits.max_plans);
   proto->set_max_planning_s(limits.max_planning_s);
   proto->set_max_watch_streams(limits.max_watch_streams);
+  proto->set_max_stall_s(limits.max_stall_s);
   proto->set_max_stamp_jump_s(limits.max_stamp_jump_s);
   proto->set_late_window_s(limits.late_window_s);
 }
@@ -39,6 +41,7 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   ServerLimits limits;
   limits.max_message_bytes = proto.max_message_bytes();
   limits.max_points_per_frame = proto.max_points_per_frame();
+  limits.max_ray_voxels = proto.max_ray_voxels();
   limits.max_objects = proto.max_objects();
   limits.max_coordinate_m = proto.max_coordinate_m();
   limits.max_blocks = proto.max_blocks();
@@ -62,6 +65,7 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_plans = proto.max_plans();
   limits.max_planning_s = proto.max_planning_s();
   limits.max_watch_streams = proto.max_watch_streams();
+  limits.max_stall_s = proto.max_stall_s();
   limits.max_stamp_jump_s = proto.max_stamp_jump_s();
   limits.late_window_s = proto.late_window_s();
   return limits;

@@ -6,6 +6,17 @@
 namespace clearway {
 namespace {
 
+// A few bytes that say that 2^18 blocks are free.
+TEST(OctomapFile, ReadingEndsSoonAfterItIsCancelled) {
+  std::string bytes = "# Octomap OcTree binary file\nid OcTree\nsize 8\nres 0.1\ndata\n";
+  for (int depth = 0; depth < 6; ++depth) bytes += std::string("\x03\x00", 2);
+  bytes += std::string("\x01\x00", 2);
+  int asked = 0;
+  const auto dut = ParseOctomap("m.bt", bytes, {}, {}, [&] { return ++asked == 3; });
+  EXPECT_TRUE(absl::IsCancelled(dut.status())) << dut.status();
+  EXPECT_EQ(asked, 3);
+}
+
 using ::testing::HasSubstr;
 
 TEST(OctomapFile, RefusesVoxelsThatOctomapCannotAddress) {

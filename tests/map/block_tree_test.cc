@@ -133,6 +133,22 @@ TEST(BlockTree, KeysOutsideAreThoseNotInTheBox) {
   }
 }
 
+TEST(BlockTree, AnyBlockVisitsUntilItIsTrue) {
+  Random random(7);
+  BlockTree dut;
+  EXPECT_FALSE(dut.AnyBlock([](BlockKey, const VoxelBlock&) { return true; }));
+  for (int i = 0; i < 500; ++i) dut.Put(RandomKey(random), BlockWith(3, 1));
+  std::vector<BlockKey> all, first;
+  dut.ForEach([&](BlockKey key, const VoxelBlock&) { all.push_back(key); });
+  EXPECT_FALSE(dut.AnyBlock([](BlockKey, const VoxelBlock&) { return false; }));
+  EXPECT_TRUE(dut.AnyBlock([&](BlockKey key, const VoxelBlock&) {
+    first.push_back(key);
+    return first.size() == 100;
+  }));
+  all.resize(100);
+  EXPECT_EQ(first, all);
+}
+
 TEST(BlockTree, AnyOccupiedInVisitsOccupiedBlocksInTheBox) {
   Random random(6);
   BlockTree dut;

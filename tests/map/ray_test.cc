@@ -18,6 +18,27 @@ TEST(Ray, EmptyWithinOneVoxel) {
   EXPECT_TRUE(Walk({0.1f, 0.1f, 0.1f}, {0.9f, 0.9f, 0.9f}).empty());
 }
 
+TEST(Ray, AVisitThatReturnsFalseIsTheLast) {
+  std::vector<VoxelKey> keys;
+  WalkRay(VoxelGrid(1.0), {0.5f, 0.5f, 0.5f}, {9.5f, 0.5f, 0.5f}, [&](VoxelKey key) {
+    keys.push_back(key);
+    return keys.size() < 3;
+  });
+  EXPECT_EQ(keys, (std::vector<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+}
+
+TEST(Ray, TellsHowManyVoxelsRaysPass) {
+  const VoxelGrid grid(0.5);
+  const std::vector<Eigen::Vector3f> ends{{10, 0, 0}, {0, -3, 4}, {0, 0, 0}};
+  const std::vector<RayEnd> kinds(ends.size(), RayEnd::kHit);
+  const Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+  const RayCloud cloud{ends, kinds, {&origin, 1}};
+  EXPECT_DOUBLE_EQ(VoxelsPassed(grid, cloud, {}), 20 + 14 + 3);
+  RayOptions short_range;
+  short_range.max_range_m = 2.5;
+  EXPECT_NEAR(VoxelsPassed(grid, cloud, short_range), 5 + 7 + 3, 1e-5);
+}
+
 TEST(Ray, StopsBeforeTheEndVoxel) {
   EXPECT_EQ(Walk({0.5f, 0.5f, 0.5f}, {3.5f, 0.5f, 0.5f}),
             (std::vector<VoxelKey>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));

@@ -78,6 +78,25 @@ TEST_F(SceneBuilderTest, RaysThroughTooManyBlocksAreRefusedAndChangeNothing) {
   EXPECT_TRUE(limited.Apply(far).ok());
 }
 
+// Each passes few blocks, and those that the others pass.
+TEST_F(SceneBuilderTest, RaysThroughTooManyVoxelsAreRefusedBeforeTheyAreCast) {
+  FrameLimits limits;
+  limits.max_ray_voxels = 100'000;
+  SceneBuilder dut = Builder({}, limits);
+  const auto bundle = [](int rays) {
+    Frame frame = FrameAt(1);
+    for (int i = 0; i < rays; ++i) AddPoint(frame, kStaticLabel, {90, 0, 0.001f * i});
+    return frame;
+  };
+  const std::string hash = dut.Publish()->Hash();
+  const absl::Status refused = dut.Apply(bundle(120)).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(refused.message(), testing::HasSubstr("points_m: the rays pass 108"));
+  EXPECT_THAT(refused.message(), testing::HasSubstr("the limit is 100000"));
+  EXPECT_EQ(dut.Publish()->Hash(), hash);
+  EXPECT_TRUE(dut.Apply(bundle(100)).ok());
+}
+
 TEST_F(SceneBuilderTest, MoreBlocksThanTheSceneMayHoldAreRefusedAndChangeNothing) {
   FrameLimits limits;
   limits.max_blocks = 20;

@@ -42,7 +42,7 @@ TEST(TimedScene, SaysWhatPlacedObjectsSay) {
   SceneBuilder builder(CoarseParams(), {}, pool);
   RandomFrames frames(3);
   Random random(4);
-  int by_objects = 0, beyond = 0;
+  int by_objects = 0, beyond = 0, hit = 0;
   for (int i = 0; i < 40; ++i) {
     ASSERT_TRUE(builder.Apply(frames.Next()).ok());
     testing_support::ChangeGivenRandomly(builder, random);
@@ -55,12 +55,28 @@ TEST(TimedScene, SaysWhatPlacedObjectsSay) {
       const Eigen::Vector3d p_W = random.Vector(9);
       const PointOccupancy truth = SceneAtTime(*scene, time).At(p_W);
       ExpectSame(dut.At(p_W, time), truth);
+      const Eigen::Vector3d direction_W = random.Vector(1);
+      const RayAnswer ray = dut.CastRay(p_W, direction_W, 9, time, [] { return false; });
+      const RayAnswer true_ray = CastQueryRay(SceneAtTime(*scene, time), p_W, direction_W, 9);
+      EXPECT_EQ(ray.first_hit_m, true_ray.first_hit_m);
+      EXPECT_EQ(ray.first_unknown_m, true_ray.first_unknown_m);
+      EXPECT_EQ(ray.object, true_ray.object);
+      hit += ray.first_hit_m.has_value();
       by_objects += truth.object != kStaticLabel;
       beyond += truth.status == SpaceStatus::kBeyondHorizon;
     }
   }
   EXPECT_GT(by_objects, 100);
   EXPECT_GT(beyond, 100);
+  EXPECT_GT(hit, 100);
+}
+
+TEST(TimedScene, ARayEndsWhenNobodyWaits) {
+  const SceneSnapshot scene = SceneSnapshot::Empty({});
+  TimedScene dut(scene, Time(), Time());
+  int asked = 0;
+  dut.CastRay({0, 0, 0}, {1, 0, 0}, 3'000, Time(), [&] { return ++asked == 3; });
+  EXPECT_EQ(asked, 3);
 }
 
 TEST(ObjectIndex, Empty) {

@@ -129,6 +129,8 @@ TEST_F(BadInput, Occupancy) {
   EXPECT_TRUE(cast().ok());
   rays.set_max_range_m(0);
   Expect(cast(), Code::kInvalidArgument, "max_range_m");
+  rays.set_max_range_m(5000);  // 25,000 voxels
+  Expect(cast(), Code::kResourceExhausted, "max_range_m");
 }
 
 TEST_F(BadInput, ObjectsLeasesAndVersions) {
@@ -208,6 +210,30 @@ TEST_F(BadInput, Maps) {
   Expect(
       Call(*maps_, &v1::MapService::Stub::ClearRegion, v1::ClearRegionRequest(), &clear_response),
       Code::kInvalidArgument, "box_world");
+}
+
+// Small questions with large answers.
+TEST(ReplyLimits, PosesAndCountsThatWouldBeTooLargeAreRefusedBeforeTheyAreMade) {
+  ServerConfig config = testing_support::SmallConfig();
+  config.limits.max_message_bytes = 1 << 16;
+  const testing_support::TestServer server(config);
+  const auto connection = server.Connect();
+  Frame frame = testing_support::FrameAt(1);
+  testing_support::AddPoint(frame, 1, {3, 0, 0});
+  ASSERT_TRUE(FrameSender(connection).Push(frame).ok());
+  const SceneClient client(connection);
+  std::vector<Time> times(1024);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = Time(FromSeconds(0.001 * i));
+  const ObjectId twice[] = {1, 1};
+  EXPECT_TRUE(client.PredictPoses({twice, 1}, times).ok());
+  const absl::Status two = client.PredictPoses(twice, times).status();
+  EXPECT_TRUE(absl::IsResourceExhausted(two)) << two;
+  EXPECT_EQ(FieldOf(two), "times_ns");
+  times.resize(2049);
+  const absl::Status box =
+      client.OccupancyOfBox({{0, 0, 0}, {0.1, 0.1, 0.1}}, times, false).status();
+  EXPECT_TRUE(absl::IsResourceExhausted(box)) << box;
+  EXPECT_EQ(FieldOf(box), "times_ns");
 }
 
 // A prior that the maps have no room for, by itself or with what is there, changes nothing.

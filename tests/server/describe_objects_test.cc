@@ -33,8 +33,14 @@ SceneSnapshot ThreeBoxes(std::vector<ObjectPart> parts) {
   return *builder.Publish();
 }
 
+const Gone kNever = [] { return false; };
+
+TEST(DescribeObjects, EndsWhenTheClientHasGone) {
+  EXPECT_TRUE(absl::IsCancelled(DescribeObjects(ThreeBoxes({}), [] { return true; }).status()));
+}
+
 TEST(DescribeObjects, ListsEachOnItsOwnThatIsPartOfNothing) {
-  const ObjectList dut = DescribeObjects(ThreeBoxes({}));
+  const ObjectList dut = *DescribeObjects(ThreeBoxes({}), kNever);
   ASSERT_EQ(dut.objects.size(), 3u);
   for (const ObjectInfo& object : dut.objects) {
     EXPECT_TRUE(object.parts.empty());
@@ -44,7 +50,7 @@ TEST(DescribeObjects, ListsEachOnItsOwnThatIsPartOfNothing) {
 }
 
 TEST(DescribeObjects, ListsPartsWithTheirWhole) {
-  const ObjectList dut = DescribeObjects(ThreeBoxes({{5, 3}}));
+  const ObjectList dut = *DescribeObjects(ThreeBoxes({{5, 3}}), kNever);
   ASSERT_EQ(dut.objects.size(), 2u);
   const ObjectInfo& whole = dut.objects[0];
   EXPECT_EQ(whole.id, 3);
@@ -61,13 +67,13 @@ TEST(DescribeObjects, ListsPartsWithTheirWhole) {
 }
 
 TEST(DescribeObjects, ListsAPartAloneWhoseWholeIsNotThere) {
-  const ObjectList dut = DescribeObjects(ThreeBoxes({{5, 77}}));
+  const ObjectList dut = *DescribeObjects(ThreeBoxes({{5, 77}}), kNever);
   ASSERT_EQ(dut.objects.size(), 3u);
   EXPECT_EQ(dut.objects[1].part_of, 77);
 }
 
 TEST(DescribeObjects, ComesBackFromTheWire) {
-  const ObjectInfo whole = DescribeObjects(ThreeBoxes({{5, 3}})).objects[0];
+  const ObjectInfo whole = DescribeObjects(ThreeBoxes({{5, 3}}), kNever)->objects[0];
   v1::ObjectInfo proto;
   Write(whole, &proto);
   const auto dut = ReadObject(proto);

@@ -285,13 +285,24 @@ TEST_F(IngestorTest, WaitingForRoomEndsWhenTheClientGoes) {
 TEST_F(IngestorTest, DrainingFinishesWhatWasAcceptedAndRefusesTheRest) {
   std::promise<void> release = Block();
   const auto accepted = dut_->Push(Pushed(Numbered(1, 1)));
-  std::thread drain([&] { dut_->Drain(); });
+  const auto late = std::chrono::steady_clock::now() + std::chrono::hours(1);
+  std::thread drain([&] { EXPECT_TRUE(dut_->Drain(late)); });
   // Until the drain has begun, the queue fills up instead.
   std::uint64_t sequence = 100;
   while (!absl::IsUnavailable(dut_->Push(Pushed(Numbered(sequence, 1))).status())) ++sequence;
   release.set_value();
   drain.join();
   EXPECT_TRUE(Ingestor::Wait(*accepted, kNever).ok());
+}
+
+TEST_F(IngestorTest, WhatStillWaitsWhenTheTimeToDrainIsOverIsNotApplied) {
+  std::promise<void> release = Block();
+  const auto accepted = dut_->Push(Pushed(Numbered(1, 1)));
+  EXPECT_FALSE(dut_->Drain(std::chrono::steady_clock::now()));  // a change is being applied
+  EXPECT_TRUE(absl::IsUnavailable(Ingestor::Wait(*accepted, kNever).status()));
+  release.set_value();
+  EXPECT_TRUE(dut_->Drain(std::chrono::steady_clock::now() + std::chrono::hours(1)));
+  EXPECT_EQ(dut_->counts().frames_applied, 0u);
 }
 
 class LeasesTest : public testing::Test {

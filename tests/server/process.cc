@@ -48,7 +48,7 @@ Process::~Process() {
     kill(id_, SIGKILL);
     Wait();
   }
-  fclose(output_);
+  CloseOutput();
 }
 
 std::string Process::Address() {
@@ -64,6 +64,11 @@ std::string Process::RestOfOutput() {
   std::string line, all = seen_;
   while (ReadLine(line)) all += line + "\n";
   return all;
+}
+
+void Process::CloseOutput() {
+  if (output_ != nullptr) fclose(output_);
+  output_ = nullptr;
 }
 
 void Process::Signal(int signal) const { kill(id_, signal); }

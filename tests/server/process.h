@@ -22,6 +22,8 @@ class Process {
   // Where it listens; empty if it ended instead.
   std::string Address();
   std::string RestOfOutput();
+  // Nobody reads it any more.
+  void CloseOutput();
   void Signal(int signal) const;
   // How many of its threads have each niceness.
   std::map<int, int> Nicenesses() const;

@@ -14,9 +14,9 @@ namespace {
 
 using testing_support::RandomFrames;
 
-std::vector<v1::SceneDeltaPart> PartsOf(const SceneDelta& delta) {
+std::vector<v1::SceneDeltaPart> PartsOf(const SceneDifference& difference) {
   std::vector<v1::SceneDeltaPart> parts;
-  EXPECT_TRUE(WriteDelta(delta, [&](const v1::SceneDeltaPart& part) {
+  EXPECT_TRUE(WriteDifference(difference, [&](const v1::SceneDeltaPart& part) {
     v1::SceneDeltaPart parsed;
     EXPECT_TRUE(parsed.ParseFromString(part.SerializeAsString()));
     EXPECT_LT(part.ByteSizeLong(), std::size_t{4} << 20);  // gRPC's default limit
@@ -72,7 +72,7 @@ SceneSnapshot WideScene() {
 
 TEST(DeltaWire, Empty) {
   const SceneSnapshot empty = SceneSnapshot::Empty(SceneParams{});
-  const auto dut = Assemble(PartsOf(Diff(nullptr, empty)));
+  const auto dut = Assemble(PartsOf(SceneDifference(nullptr, empty)));
   ASSERT_TRUE(dut.ok()) << dut.status();
   const auto scene = Apply(nullptr, *dut);
   ASSERT_TRUE(scene.ok()) << scene.status();
@@ -83,7 +83,7 @@ TEST(DeltaWire, AnyTwoVersionsComeTogetherAgain) {
   const std::vector<ScenePtr> scenes = Scenes(30, 11);
   for (std::size_t from = 0; from < scenes.size(); from += 3) {
     for (std::size_t to = from; to < scenes.size(); to += 4) {
-      const auto dut = Assemble(PartsOf(Diff(scenes[from].get(), *scenes[to])));
+      const auto dut = Assemble(PartsOf(SceneDifference(scenes[from].get(), *scenes[to])));
       ASSERT_TRUE(dut.ok()) << dut.status();
       const auto scene = Apply(scenes[from].get(), *dut);
       ASSERT_TRUE(scene.ok()) << scene.status();
@@ -95,7 +95,7 @@ TEST(DeltaWire, AnyTwoVersionsComeTogetherAgain) {
 
 TEST(DeltaWire, ALargeSceneComesInPartsBelowTheMessageLimit) {
   const SceneSnapshot wide = WideScene();
-  const auto parts = PartsOf(Diff(nullptr, wide));
+  const auto parts = PartsOf(SceneDifference(nullptr, wide));
   EXPECT_GT(parts.size(), 1u);
   const auto dut = Assemble(parts);
   ASSERT_TRUE(dut.ok()) << dut.status();
@@ -105,24 +105,25 @@ TEST(DeltaWire, ALargeSceneComesInPartsBelowTheMessageLimit) {
 TEST(DeltaWire, StopsWhenNobodyTakesTheParts) {
   const SceneSnapshot wide = WideScene();
   int sent = 0;
-  EXPECT_FALSE(WriteDelta(Diff(nullptr, wide), [&](const auto&) { return ++sent < 2; }));
+  EXPECT_FALSE(
+      WriteDifference(SceneDifference(nullptr, wide), [&](const auto&) { return ++sent < 2; }));
   EXPECT_EQ(sent, 2);
 }
 
 TEST(DeltaWire, RefusesPartsOutOfTurn) {
-  auto parts = PartsOf(Diff(nullptr, WideScene()));
+  auto parts = PartsOf(SceneDifference(nullptr, WideScene()));
   parts.erase(parts.begin() + 1);
   EXPECT_TRUE(absl::IsFailedPrecondition(Assemble(parts).status()));
 }
 
 TEST(DeltaWire, RefusesADeltaThatBeginsInTheMiddle) {
-  auto parts = PartsOf(Diff(nullptr, WideScene()));
+  auto parts = PartsOf(SceneDifference(nullptr, WideScene()));
   parts.erase(parts.begin());
   EXPECT_TRUE(absl::IsFailedPrecondition(Assemble(parts).status()));
 }
 
 TEST(DeltaWire, RefusesVoxelsOfAnObjectThatWasNotSent) {
-  auto parts = PartsOf(Diff(nullptr, *Scenes(10, 3).back()));
+  auto parts = PartsOf(SceneDifference(nullptr, *Scenes(10, 3).back()));
   parts[0].mutable_maps(0)->set_object_id(4711);
   const absl::Status status = Assemble(parts).status();
   EXPECT_TRUE(absl::IsInvalidArgument(status));
@@ -130,7 +131,7 @@ TEST(DeltaWire, RefusesVoxelsOfAnObjectThatWasNotSent) {
 }
 
 TEST(DeltaWire, RefusesDamagedVoxels) {
-  const auto parts = PartsOf(Diff(nullptr, *Scenes(10, 3).back()));
+  const auto parts = PartsOf(SceneDifference(nullptr, *Scenes(10, 3).back()));
   const std::string good = parts[0].maps(0).zstd_block_deltas();
   for (std::size_t size = 0; size < good.size(); size += 7) {
     auto cut = parts;
@@ -178,7 +179,7 @@ TEST(DeltaWire, GivenShapesAndFuturesSurvive) {
     ASSERT_TRUE(builder.AddObject(given).ok());
   }
   const ScenePtr scene = builder.Publish();
-  const auto delta = Assemble(PartsOf(Diff(nullptr, *scene)));
+  const auto delta = Assemble(PartsOf(SceneDifference(nullptr, *scene)));
   ASSERT_TRUE(delta.ok()) << delta.status();
   const auto applied = Apply(nullptr, *delta);
   ASSERT_TRUE(applied.ok()) << applied.status();

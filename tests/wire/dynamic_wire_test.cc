@@ -34,9 +34,9 @@ SceneSnapshot SceneOf(int voxels) {
   return scene;
 }
 
-std::vector<SceneDeltaPart> PartsOf(const SceneDelta& delta) {
+std::vector<SceneDeltaPart> PartsOf(const SceneDifference& difference) {
   std::vector<SceneDeltaPart> parts;
-  EXPECT_TRUE(WriteDelta(delta, [&](const SceneDeltaPart& part) {
+  EXPECT_TRUE(WriteDifference(difference, [&](const SceneDeltaPart& part) {
     EXPECT_LT(part.ByteSizeLong(), std::size_t{4} << 20);  // gRPC's default limit
     parts.push_back(part);
     return true;
@@ -57,7 +57,7 @@ absl::StatusOr<SceneDelta> Assemble(const std::vector<SceneDeltaPart>& parts) {
 TEST(DynamicWire, ComesTogetherAgain) {
   for (const int voxels : {0, 1, 700, 400'000}) {
     const SceneSnapshot scene = SceneOf(voxels);
-    const auto dut = Assemble(PartsOf(Diff(nullptr, scene)));
+    const auto dut = Assemble(PartsOf(SceneDifference(nullptr, scene)));
     ASSERT_TRUE(dut.ok()) << dut.status();
     const auto applied = Apply(nullptr, *dut);
     ASSERT_TRUE(applied.ok()) << applied.status();
@@ -70,7 +70,7 @@ TEST(DynamicWire, GoesAway) {
   SceneSnapshot after = before;
   after.version = 4;
   after.dynamic_W = {};
-  const auto dut = Assemble(PartsOf(Diff(&before, after)));
+  const auto dut = Assemble(PartsOf(SceneDifference(&before, after)));
   ASSERT_TRUE(dut.ok()) << dut.status();
   EXPECT_TRUE(SameContent(*Apply(&before, *dut), after));
 }
@@ -79,13 +79,13 @@ TEST(DynamicWire, StaysWhereNothingDiffers) {
   const SceneSnapshot before = SceneOf(700);
   SceneSnapshot after = before;
   after.version = 4;
-  const auto parts = PartsOf(Diff(&before, after));
+  const auto parts = PartsOf(SceneDifference(&before, after));
   EXPECT_EQ(parts.at(0).dynamic_size(), 0);
   EXPECT_TRUE(SameContent(*Apply(&before, *Assemble(parts)), after));
 }
 
 TEST(DynamicWire, RefusesWhatIsDamaged) {
-  const auto parts = PartsOf(Diff(nullptr, SceneOf(5)));
+  const auto parts = PartsOf(SceneDifference(nullptr, SceneOf(5)));
   const auto refused = [&](auto&& spoil) {
     auto spoilt = parts;
     spoil(spoilt[0]);

@@ -227,6 +227,7 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   ServerLimits& l = info.limits;
   for (std::uint64_t* limit : {&l.max_message_bytes,
                                &l.max_points_per_frame,
+                               &l.max_ray_voxels,
                                &l.max_blocks,
                                &l.max_objects,
                                &l.max_states_per_batch,
@@ -252,6 +253,7 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   l.max_lease_ttl_s = 2.5;
   l.max_version_wait_s = 3.5;
   l.max_planning_s = 4.5;
+  l.max_stall_s = 5.5;
   v1::GetServerInfoResponse proto;
   Write(info, &proto);
   const auto dut = ReadServerInfo(proto);

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "clearway/io/byte_sink.h"
 #include "clearway/map/voxel_map.h"
 #include "clearway/scene/occupancy.h"
 
@@ -51,17 +53,24 @@ absl::StatusOr<VoxelMap> Resample(const VoxelMap& map, double resolution_m,
 // OctoMap at the model's threshold; .bt gives the clamps as log-odds. The whole file must be one
 // tree: INVALID_ARGUMENT names the line of the header, or the byte, at which it is cut off, goes on
 // after its end, nests deeper than 16 levels, or holds a value that is no number;
-// RESOURCE_EXHAUSTED what exceeds the limits, before memory is taken. `name` names the file in
-// messages.
-absl::StatusOr<OctomapFile> ParseOctomap(const std::string& name, std::string_view bytes,
-                                         const OccupancyModel& model = {},
-                                         const OctomapLimits& limits = {});
+// RESOURCE_EXHAUSTED what exceeds the limits, before memory is taken; CANCELLED soon after
+// `cancelled`, which is asked every so often, has become true. `name` names the file in messages.
+absl::StatusOr<OctomapFile> ParseOctomap(
+    const std::string& name, std::string_view bytes, const OccupancyModel& model = {},
+    const OctomapLimits& limits = {},
+    const std::function<bool()>& cancelled = [] { return false; });
 absl::StatusOr<OctomapFile> ReadOctomap(const std::filesystem::path& path,
                                         const OccupancyModel& model = {},
                                         const OctomapLimits& limits = {});
 
-// The file of a map, by OctoMap's own library. OUT_OF_RANGE if a voxel's index is outside OctoMap's
-// 16 bits.
+// The file of a map, piece by piece: byte for byte what OctoMap's library makes of the pruned tree,
+// but with all digits of the resolution. Takes some 60 bytes of memory for each block of the map.
+// OUT_OF_RANGE if a voxel's index is outside OctoMap's 16 bits; CANCELLED once the sink wants no
+// more, or soon after `cancelled`, which is asked every so often, has become true.
+absl::Status WriteOctomap(
+    const VoxelMap& map, OctomapFormat format, const ByteSink& sink,
+    const std::function<bool()>& cancelled = [] { return false; });
+// All of it.
 absl::StatusOr<std::string> SerializeOctomap(const VoxelMap& map, OctomapFormat format);
 
 // Writes `.bt` or `.ot`, by the path's extension; INVALID_ARGUMENT for another one.

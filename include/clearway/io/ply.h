@@ -11,6 +11,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "clearway/geometry/pose.h"
+#include "clearway/io/byte_sink.h"
 #include "clearway/map/voxel_map.h"
 #include "clearway/scene/occupancy.h"
 
@@ -35,6 +36,8 @@ std::array<std::uint8_t, 3> PlyColorOf(ObjectId object);
 // Binary little endian PLY, in W: vertices with x, y, z (float, metres), red, green, blue (uchar)
 // and object (int); faces of four vertices, counter-clockwise seen from outside.
 std::string SerializePly(std::span<const PlyLayer> layers, PlyStyle style);
+// The same piece by piece. CANCELLED once the sink wants no more.
+absl::Status WritePly(std::span<const PlyLayer> layers, PlyStyle style, const ByteSink& sink);
 
 // What SerializePly made of points, with the origin added to each of them: x, y, z become doubles,
 // so that the coordinates of UTM keep their decimals; a comment names the origin. INVALID_ARGUMENT

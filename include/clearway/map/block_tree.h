@@ -55,6 +55,10 @@ class BlockTree {
   template <class Visit>
   void ForEach(Visit&& visit) const;
 
+  // As ForEach, as long as visit is false; returns whether it ever was true.
+  template <class Visit>
+  bool AnyBlock(Visit&& visit) const;
+
   // As ForEach, but only for the blocks whose key lies in [min, max] along each axis.
   template <class Visit>
   void ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const;
@@ -73,6 +77,9 @@ class BlockTree {
   // written between them.
   template <class Visit>
   static void ForEachDifference(const BlockTree& before, const BlockTree& after, Visit&& visit);
+  // The same as long as visit is false; returns whether it ever was true.
+  template <class Visit>
+  static bool AnyDifference(const BlockTree& before, const BlockTree& after, Visit&& visit);
 
  private:
   static constexpr int kFanBits = 2;  // children along an axis: 4
@@ -147,7 +154,7 @@ class BlockTree {
   static void AddKeysOutside(const Node& node, BlockKey base, BlockKey min, BlockKey max,
                              std::vector<BlockKey>& keys);
   template <class Node, class Visit>
-  static void VisitDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
+  static bool AnyInDifference(const Node* before, const Node* after, BlockKey base, Visit& visit);
 
   // Where in roots_; -1 for nowhere.
   std::int32_t PlaceOfRoot(BlockKey root_key) const;

@@ -72,6 +72,15 @@ void BlockTree::ForEach(Visit&& visit) const {
 }
 
 template <class Visit>
+bool BlockTree::AnyBlock(Visit&& visit) const {
+  constexpr std::int32_t kAll = kMaxVoxelIndex;
+  constexpr BlockKey kMin{-kAll, -kAll, -kAll}, kMax{kAll, kAll, kAll};
+  return AnyRootIn(kMin, kMax, [&](const Root& root) {
+    return AnyIn<false>(*root.node, FirstBlockOf(root), kMin, kMax, visit);
+  });
+}
+
+template <class Visit>
 void BlockTree::ForEachIn(BlockKey min, BlockKey max, Visit&& visit) const {
   const auto every = [&](BlockKey key, const VoxelBlock& block) {
     visit(key, block);
@@ -107,35 +116,50 @@ bool BlockTree::AnyOccupiedIn(BlockKey min, BlockKey max, Visit&& visit) const {
 }
 
 template <class Node, class Visit>
-void BlockTree::VisitDifference(const Node* before, const Node* after, BlockKey base,
+bool BlockTree::AnyInDifference(const Node* before, const Node* after, BlockKey base,
                                 Visit& visit) {
-  if (before == after) return;
+  if (before == after) return false;
   if constexpr (std::is_same_v<Node, Leaf>) {
-    visit(base, before ? &before->block : nullptr, after ? &after->block : nullptr);
+    return visit(base, before ? &before->block : nullptr, after ? &after->block : nullptr);
   } else {
     constexpr int shift = ShiftBelow(static_cast<const Node*>(nullptr));
     const std::uint64_t either = (before ? before->used : 0) | (after ? after->used : 0);
     for (std::uint64_t used = either; used != 0; used &= used - 1) {
       const int slot = std::countr_zero(used);
-      VisitDifference(before ? before->children[slot].get() : nullptr,
-                      after ? after->children[slot].get() : nullptr, ChildKey(base, slot, shift),
-                      visit);
+      if (AnyInDifference(before ? before->children[slot].get() : nullptr,
+                          after ? after->children[slot].get() : nullptr,
+                          ChildKey(base, slot, shift), visit)) {
+        return true;
+      }
     }
+    return false;
   }
 }
 
 template <class Visit>
-void BlockTree::ForEachDifference(const BlockTree& before, const BlockTree& after, Visit&& visit) {
+bool BlockTree::AnyDifference(const BlockTree& before, const BlockTree& after, Visit&& visit) {
   auto b = before.roots_.begin();
   auto a = after.roots_.begin();
   while (b != before.roots_.end() || a != after.roots_.end()) {
     const bool has_b = a == after.roots_.end() || (b != before.roots_.end() && b->key <= a->key);
     const bool has_a = b == before.roots_.end() || (a != after.roots_.end() && a->key <= b->key);
-    VisitDifference(has_b ? b->node.get() : nullptr, has_a ? a->node.get() : nullptr,
-                    FirstBlockOf(has_b ? *b : *a), visit);
+    if (AnyInDifference(has_b ? b->node.get() : nullptr, has_a ? a->node.get() : nullptr,
+                        FirstBlockOf(has_b ? *b : *a), visit)) {
+      return true;
+    }
     if (has_b) ++b;
     if (has_a) ++a;
   }
+  return false;
+}
+
+template <class Visit>
+void BlockTree::ForEachDifference(const BlockTree& before, const BlockTree& after, Visit&& visit) {
+  AnyDifference(before, after,
+                [&](BlockKey key, const VoxelBlock* block_before, const VoxelBlock* block_after) {
+                  visit(key, block_before, block_after);
+                  return false;
+                });
 }
 
 }  // namespace clearway

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "clearway/map/voxel_key.h"
 
@@ -58,7 +59,7 @@ RayStart StartRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Ei
 // Calls visit(VoxelKey) for each voxel that the segment passes from origin's voxel up to, not
 // including, end's voxel. This is OctoMap's computeRayKeys, with its rounding (Amanatides and Woo,
 // "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987), so that the voxels are the same ones.
-// Both points must be addressable in the grid.
+// A visit that returns false is the last. Both points must be addressable in the grid.
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit);
@@ -71,15 +72,26 @@ struct LimitedRay {
 LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eigen::Vector3f& origin,
                     const Eigen::Vector3f& end);
 
+// About how many voxels the rays pass, each counted as often as it is passed: what it costs to walk
+// them all, told before it is done.
+double VoxelsPassed(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
+
 // Implementation.
 
 template <class Visit>
 void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::Vector3f& end,
              Visit&& visit) {
+  const auto go_on = [&](const VoxelKey& key) {
+    if constexpr (std::is_same_v<decltype(visit(key)), bool>) {
+      return visit(key);
+    } else {
+      visit(key);
+      return true;
+    }
+  };
   RayStart ray = StartRay(grid, origin, end);
   VoxelKey& key = ray.key;
-  if (key == ray.end) return;
-  visit(key);
+  if (key == ray.end || !go_on(key)) return;
   std::int32_t* const index[3] = {&key.x, &key.y, &key.z};
   auto& t_max = ray.t_max;
   while (true) {
@@ -91,7 +103,7 @@ void WalkRay(const VoxelGrid& grid, const Eigen::Vector3f& origin, const Eigen::
     // Rounding made the ray miss its end voxel: OctoMap stops where the segment's length is used
     // up.
     if (std::min({t_max[0], t_max[1], t_max[2]}) > ray.length_m) return;
-    visit(key);
+    if (!go_on(key)) return;
   }
 }
 

@@ -80,6 +80,9 @@ inline constexpr double kMaxSpeed_mps = 1'000;
 // Bounds on what a frame may hold, and the scene after it.
 struct FrameLimits {
   std::size_t max_points = 2'000'000;
+  // That rays pass, each counted as often as it is passed. A few rays of many kilometres would
+  // keep the scene busy for minutes.
+  std::uint64_t max_ray_voxels = std::uint64_t{1} << 29;
   std::size_t max_objects = 4'096;
   double max_coordinate_m = 100'000;  // of positions; also bounded by what the grid can address
   // Of 8 x 8 x 8 voxels, in all maps of the scene together: 1.3 KB each, up to 3 KB if scattered.

@@ -81,8 +81,9 @@ class SceneBuilder {
   // Applies the frame whole, or refuses it whole and changes nothing: what Validate(frame) refuses;
   // FAILED_PRECONDITION for a stamp that goes back, is late by more than the window, or jumps ahead
   // (the first frame after construction or Reset may have any), and for parts of parts;
-  // RESOURCE_EXHAUSTED for more objects or blocks than FrameLimits allows, and for rays that touch
-  // more than kMaxScanBlocks blocks; INVALID_ARGUMENT for poses outside the addressable space.
+  // RESOURCE_EXHAUSTED for more objects, blocks or voxels along rays than FrameLimits allows, and
+  // for rays that touch more than kMaxScanBlocks blocks; INVALID_ARGUMENT for poses outside the
+  // addressable space.
   absl::StatusOr<FrameReport> Apply(const Frame& frame, const ApplyOptions& options = {});
 
   // The scene so far as an immutable version. Versions count from 1; without a change since, the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -75,6 +76,29 @@ enum class MapDetail {
 // version 0.
 SceneDelta Diff(const SceneSnapshot* from, const SceneSnapshot& to,
                 MapDetail detail = MapDetail::kLogOdds);
+
+// What Diff tells, piece by piece: a whole scene as a value takes some twice its memory. Both
+// scenes must outlive it. Any thread may call any method.
+class SceneDifference {
+ public:
+  SceneDifference(const SceneSnapshot* from, const SceneSnapshot& to,
+                  MapDetail detail = MapDetail::kLogOdds);
+  SceneDifference(const SceneDifference&) = delete;
+  SceneDifference& operator=(const SceneDifference&) = delete;
+
+  // Without the static map's blocks and the objects.
+  SceneDelta Head() const;
+  // These call `take`, in the delta's order, as long as it is true; they return whether it always
+  // was.
+  bool ForEachBlock(const std::function<bool(BlockDelta)>& take) const;
+  bool ForEachObject(const std::function<bool(ObjectDelta)>& take) const;
+
+ private:
+  const SceneSnapshot empty_;
+  const SceneSnapshot& from_;
+  const SceneSnapshot& to_;
+  const MapDetail detail_;
+};
 
 // Apply(a, Diff(a, b)) == b, bit for bit. With kStates, where S(x) is Apply(null, Diff(null, x,
 // kStates)), likewise Apply(S(a), Diff(a, b, kStates)) == S(b), and S(b) answers every question of

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,7 +49,11 @@ struct SceneSnapshot {
 
   // 32 hex digits (XXH3-128): equal scenes have equal hashes on every machine and with any
   // number of threads. Covers all but `version`.
-  std::string Hash() const;
+  std::string Hash() const {
+    return Hash([] { return false; });
+  }
+  // The same; means nothing once `cancelled`, which is asked every so often, has become true.
+  std::string Hash(const std::function<bool()>& cancelled) const;
 };
 
 using ScenePtr = std::shared_ptr<const SceneSnapshot>;

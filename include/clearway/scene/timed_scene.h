@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,10 @@ class TimedScene {
   // The same for many points, which is faster: the spans are of one size.
   void At(std::span<const Eigen::Vector3d> points_W, std::span<const Time> times,
           std::span<PointOccupancy> answers);
+  // As CastQueryRay at that time. Ends soon after `cancelled`, which is asked every so often, says
+  // so; then the answer means nothing.
+  RayAnswer CastRay(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& direction_W,
+                    double max_range_m, Time time, const std::function<bool()>& cancelled);
 
  private:
   const SceneAtTime::Placed& Placed(std::size_t object, Time time);

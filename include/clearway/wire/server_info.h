@@ -13,6 +13,7 @@ namespace clearway {
 struct ServerLimits {
   std::uint64_t max_message_bytes = 64 << 20;
   std::uint64_t max_points_per_frame = 2'000'000;
+  std::uint64_t max_ray_voxels = 1 << 29;  // that the rays of a frame or query pass, all in all
   std::uint64_t max_objects = 4'096;
   double max_coordinate_m = 100'000;
   std::uint64_t max_blocks = 1 << 22;  // of 8 x 8 x 8 voxels, in all maps of the scene
@@ -36,6 +37,7 @@ struct ServerLimits {
   std::uint64_t max_plans = 4;       // at once
   double max_planning_s = 60;
   std::uint64_t max_watch_streams = 64;
+  double max_stall_s = 10;  // that a stream's client may read nothing of what is written to it
   double max_stamp_jump_s = 3600;  // of a frame's stamp, ahead of the scene's newest
   double late_window_s = 0.2;      // for frames older than those of other sensors
   bool operator==(const ServerLimits&) const = default;
