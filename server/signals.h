@@ -17,7 +17,7 @@ class Signals {
 
   // Waits for the next. Any one thread at a time.
   int Next() const;
-  // The next one after this that tells the process to end does so at once, with `exit_code`.
+  // From now on, SIGTERM or SIGINT ends the process at once, with `exit_code`.
   void EndAtTheNext(int exit_code) const;
 
  private:

@@ -1,4 +1,4 @@
-// How long a call goes on.
+// Cancellation and fair scheduling of a call that computes.
 #pragma once
 
 #include <grpcpp/server_context.h>

@@ -1,4 +1,4 @@
-// The nodes of OctoMap's octree, told from a map's blocks without the tree in memory.
+// The nodes of OctoMap's octree, computed from a map's blocks without building the tree.
 #pragma once
 
 #include <array>

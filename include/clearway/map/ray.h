@@ -72,8 +72,8 @@ struct LimitedRay {
 LimitedRay LimitRay(const VoxelGrid& grid, const RayOptions& options, const Eigen::Vector3f& origin,
                     const Eigen::Vector3f& end);
 
-// About how many voxels the rays pass, each counted as often as it is passed: what it costs to walk
-// them all, told before it is done.
+// About how many voxels the rays pass, each counted as often as it is passed: an estimate of the
+// cost of walking them.
 double VoxelsPassed(const VoxelGrid& grid, const RayCloud& cloud, const RayOptions& options);
 
 // Implementation.
