@@ -55,7 +55,7 @@ ServerCore::ServerCore(const ServerConfig& server_config)
       instance(NewInstance()),
       versions(config.kept_versions),
       deltas(instance),
-      stalls(FromSeconds(config.limits.max_stall_s)),
+      streams(FromSeconds(config.limits.max_stall_s)),
       computing(Processors(), kTurn),
       leases(LeaseOptions(config)),
       robots(config.limits, config.scene.resolution_m),

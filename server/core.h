@@ -13,7 +13,7 @@
 #include "server/ingestor.h"
 #include "server/leases.h"
 #include "server/robots.h"
-#include "server/stall_watch.h"
+#include "server/stream_watch.h"
 #include "server/versions.h"
 
 namespace clearway {
@@ -33,7 +33,7 @@ struct ServerCore {
   const std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Versions versions;
   DeltaCache deltas;
-  StallWatch stalls;
+  StreamWatch streams;
   FairQueue computing;
   Leases leases;
   Robots robots;

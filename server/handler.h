@@ -63,7 +63,9 @@ bool IsMarked(const google::protobuf::Message& message);
 // Reads the stream's next message. gRPC alone reports bytes that are no message as the stream's
 // end.
 template <class Stream, class Request>
-Received ReadNext(Stream& stream, Request& request) {
+Received ReadNext(Stream& stream, Request& request, grpc::ServerContext& context,
+                  StreamWatch& watch) {
+  const StreamWatch::Turn turn(watch, context, StreamWatch::For::kReading);
   Mark(request);
   if (stream.Read(&request)) return Received::kMessage;
   return IsMarked(request) ? Received::kEnd : Received::kGarbage;

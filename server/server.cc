@@ -177,6 +177,7 @@ bool Server::Drain() {
     core.versions.Close();
     WaitForCalls(core, end);
     core.cancelling = true;
+    core.streams.EndAll(std::string(DrainingError().message()));
     if (impl_->unread) impl_->unread->SetPatience(kLastReads);
     impl_->ended = std::async(std::launch::async, [&server = *impl_->server] {
       server.Shutdown(std::chrono::system_clock::now() + kLastAnswers);

@@ -75,7 +75,7 @@ class Follower {
   using Clock = std::chrono::steady_clock;
 
   bool Send(const v1::FollowSceneResponse& message) {
-    return WriteTo(writer_, message, context_, core_.stalls);
+    return WriteTo(writer_, message, context_, core_.streams);
   }
 
   // A difference is shared with all who go the same step. A large scene is sent as it is made.

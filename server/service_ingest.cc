@@ -113,7 +113,7 @@ class AnswerWriter {
       const Owed owed = owed_.front();
       lock.unlock();
       // If the client has gone, so has the answer's reader.
-      WriteTo(stream_, ResponseTo(owed), context_, core_.stalls);
+      WriteTo(stream_, ResponseTo(owed), context_, core_.streams);
       lock.lock();
       owed_.pop_front();
       changed_.notify_all();
@@ -179,7 +179,7 @@ grpc::Status IngestHandlers::PushFrames(
     AnswerWriter answers(core_, *stream, limits.max_frames_in_flight, *context);
     v1::PushFramesRequest request;
     Received received;
-    while ((received = ReadNext(*stream, request)) == Received::kMessage) {
+    while ((received = ReadNext(*stream, request, *context, core_.streams)) == Received::kMessage) {
       answers.Owe(request.frame(), Accept(core_, request, [&](PushedFrame pushed) {
                     return core_.ingestor.PushWhenRoom(std::move(pushed), gone);
                   }));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
@@ -44,14 +45,16 @@ absl::StatusOr<MapFormat> ReadFormat(int proto) {
 }
 
 // The bytes of all pieces; RESOURCE_EXHAUSTED before more is kept than allowed.
-absl::StatusOr<std::string> ReadPieces(grpc::ServerReader<v1::LoadPriorRequest>& reader,
-                                       std::uint64_t max_bytes, int& format) {
+absl::StatusOr<std::string> ReadPieces(ServerCore& core, grpc::ServerContext& context,
+                                       grpc::ServerReader<v1::LoadPriorRequest>& reader,
+                                       int& format) {
+  const std::uint64_t max_bytes = core.config.limits.max_prior_bytes;
   std::string bytes;
   v1::LoadPriorRequest request;
   Received received;
-  for (bool first = true; (received = ReadNext(reader, request)) == Received::kMessage;
-       first = false) {
-    if (first) format = request.format();
+  bool first = true;
+  while ((received = ReadNext(reader, request, context, core.streams)) == Received::kMessage) {
+    if (std::exchange(first, false)) format = request.format();
     if (bytes.size() + request.data().size() > max_bytes) {
       return LimitError("data", bytes.size() + request.data().size(), max_bytes);
     }
@@ -101,7 +104,7 @@ grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
     const auto send = [&](std::string_view piece) {
       response.set_data(std::string(piece));
       work.Rest();
-      return WriteTo(*writer, response, *context, core_.stalls) && !work.MustEnd();
+      return WriteTo(*writer, response, *context, core_.streams) && !work.MustEnd();
     };
     return ExportTo(send, **scene, *target, *format, [&] { return work.MustEnd(); });
   });
@@ -113,7 +116,7 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
   return HandleStream(core_, "LoadPrior", [&]() -> absl::Status {
     const std::uint64_t max_bytes = core_.config.limits.max_prior_bytes;
     int format = v1::MAP_FORMAT_UNSPECIFIED;
-    absl::StatusOr<std::string> bytes = ReadPieces(*reader, max_bytes, format);
+    absl::StatusOr<std::string> bytes = ReadPieces(core_, *context, *reader, format);
     if (!bytes.ok()) return bytes.status();
     if (format != v1::MAP_FORMAT_BT && format != v1::MAP_FORMAT_OT) {
       return FieldError("format", "must be BT or OT, in the first message");

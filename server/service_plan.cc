@@ -31,7 +31,7 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, grpc::Serve
     response.set_inflation_mps(task->options.check.inflation_mps);
     response.set_bound_multiple(task->options.check.bound_multiple);
     work.Rest();
-    lost = lost || !WriteTo(writer, response, context, core.stalls);
+    lost = lost || !WriteTo(writer, response, context, core.streams);
   };
   const auto outcome = Solve(
       *task, *checker, *budget,

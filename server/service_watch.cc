@@ -72,7 +72,7 @@ absl::Status Watch(ServerCore& core, const v1::CheckMotionsRequest& request,
     v1::WatchMotionsResponse response;
     if (!changes.Note(*reply, response)) continue;
     Write(*reply, response.mutable_answers());
-    if (!WriteTo(writer, response, context, core.stalls)) break;
+    if (!WriteTo(writer, response, context, core.streams)) break;
   }
   return absl::CancelledError("the client has gone");
 }

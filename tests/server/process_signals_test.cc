@@ -90,7 +90,9 @@ TEST_F(Signalled, CallsGetTheTimeThatIsConfigured) {
   IdleCall idle(address_);
   dut_->Signal(SIGTERM);
   EXPECT_EQ(dut_->Wait(), 0);
-  EXPECT_EQ(idle.Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+  const grpc::Status status = idle.Finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(status.error_message(), "the server is draining");
 }
 
 TEST_F(Signalled, ASecondSignalEndsItAtOnce) {
