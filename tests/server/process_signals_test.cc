@@ -39,15 +39,17 @@ class Signalled : public testing::Test {
   std::shared_ptr<Connection> connection_;
 };
 
-// A call that would go on for ever: its client sends nothing and does not go.
+// A call that would go on for ever: its client sends some pieces, then nothing, and does not go.
 class IdleCall {
  public:
   explicit IdleCall(const std::string& address)
       : stub_(grpc::CreateChannel(address, grpc::InsecureChannelCredentials())),
         writer_(stub_.LoadPrior(&context_, &response_)) {
+    // More than is taken from a client before its handler reads: the call has begun.
     v1::LoadPriorRequest piece;
     piece.set_format(v1::MAP_FORMAT_BT);
-    EXPECT_TRUE(writer_->Write(piece));
+    piece.set_data(std::string(1 << 20, 'x'));
+    for (int i = 0; i < 32; ++i) EXPECT_TRUE(writer_->Write(piece));
   }
   ~IdleCall() {
     context_.TryCancel();
