@@ -30,14 +30,13 @@ CubeContact::Bounds CubeContact::FromCore(const Eigen::Vector3d& to_center_F, do
           (gap - half_edge_m).max(0).matrix().norm()};
 }
 
-// As FromCore, with neither a division nor the second root.
-CubeContact::Answer CubeContact::Between(const Eigen::Vector3d& to_center_F,
+CubeContact::Answer CubeContact::OfOther(const Eigen::Vector3d& center_F,
                                          double half_edge_m) const {
-  const Eigen::Array3d gap = to_center_F.array().abs();
-  const double squared = to_center_F.squaredNorm();
-  if (squared - half_edge_m * gap.sum() > far_m_ * std::sqrt(squared)) return Answer::kNo;
-  const double most_squared = (gap - half_edge_m).max(0).matrix().squaredNorm();
-  return most_squared <= near_m_ * near_m_ ? Answer::kYes : Answer::kOpen;
+  if (!box_) return OfAnyShape(center_F, half_edge_m);
+  const Eigen::Vector3d to_center_G = FromBox(center_F);
+  if (const auto answer = ByBalls(to_center_G.squaredNorm(), half_edge_m)) return *answer;
+  const Answer answer = Between(box_->R_F_G * to_center_G, half_edge_m);
+  return answer == Answer::kOpen && sharp_ ? OfBoxes(center_F, half_edge_m) : answer;
 }
 
 CubeContact::Answer CubeContact::OfBoxes(const Eigen::Vector3d& center_F,

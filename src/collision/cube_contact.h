@@ -20,12 +20,7 @@ class CubeContact {
   // not, it is up to rounding. kOpen is not known.
   enum class Answer { kNo, kYes, kOpen };
   Answer Of(const Eigen::Vector3d& center_F, double half_edge_m) const {
-    if (line_) return OfRounded(FromLine(center_F), half_edge_m);
-    if (!box_) return OfAnyShape(center_F, half_edge_m);
-    const Eigen::Vector3d to_center_G = FromBox(center_F);
-    if (const auto answer = ByBalls(to_center_G.squaredNorm(), half_edge_m)) return *answer;
-    const Answer answer = Between(box_->R_F_G * to_center_G, half_edge_m);
-    return answer == Answer::kOpen && sharp_ ? OfBoxes(center_F, half_edge_m) : answer;
+    return line_ ? OfRounded(FromLine(center_F), half_edge_m) : OfOther(center_F, half_edge_m);
   }
 
   // The distance between shape and cube, whatever the margin, lies between these, with 1e-9 m to
@@ -68,7 +63,17 @@ class CubeContact {
   // The distance of a cube from the line or the shape, where its centre is so far from the nearest
   // point.
   static Bounds FromCore(const Eigen::Vector3d& to_center_F, double half_edge_m);
-  Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const;
+  // As FromCore, with neither a division nor a root.
+  Answer Between(const Eigen::Vector3d& to_center_F, double half_edge_m) const {
+    const Eigen::Array3d gap = to_center_F.array().abs();
+    const double squared = to_center_F.squaredNorm();
+    // Over the distance: how far the cube surely is from the core.
+    const double least = squared - half_edge_m * gap.sum();
+    if (least > 0 && least * least > far_m_ * far_m_ * squared) return Answer::kNo;
+    const double most_squared = (gap - half_edge_m).max(0).matrix().squaredNorm();
+    return most_squared <= near_m_ * near_m_ ? Answer::kYes : Answer::kOpen;
+  }
+  Answer OfOther(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   double GapOfBoxes(const Eigen::Vector3d& center_F, double half_edge_m) const;
   Answer OfMesh(const Eigen::Vector3d& center_F, double half_edge_m) const;
