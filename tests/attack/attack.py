@@ -1,0 +1,37 @@
+"""Attacks a server of this machine and prints what came of it, as a table and as JSON.
+
+usage: attack.py --server PROGRAM --stubs FOLDER [--seconds S] [--only WORD] [--json FILE]
+
+FOLDER holds what protoc makes of proto/ for Python. The exit code is 1 if a bar is not met.
+"""
+import argparse
+import dataclasses
+import json
+import sys
+
+import calls
+from attacks import Attacks
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--server", required=True, help="the program clearway-server")
+    parser.add_argument("--stubs", required=True, help="folder of Python modules made from proto/")
+    parser.add_argument("--seconds", type=float, default=30, help="how long each attack goes on")
+    parser.add_argument("--only", default="", help="attacks whose name holds this word")
+    parser.add_argument("--json", help="file to write the rows to")
+    arguments = parser.parse_args()
+    attacks = Attacks(arguments.server, calls.Stubs(arguments.stubs), arguments.seconds)
+    rows = []
+    for name in [n for n in dir(attacks) if n.startswith("attack_") and arguments.only in n]:
+        for row in getattr(attacks, name)():
+            rows.append(row)
+            print(f"| {row.attack} | {row.seen} | {'met' if row.met else 'NOT MET'} |", flush=True)
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as out:
+            json.dump([dataclasses.asdict(row) for row in rows], out, indent=1)
+    sys.exit(0 if all(row.met for row in rows) else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,272 @@
+"""The attacks, each beside a client whose calls are timed."""
+import random
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+
+import calls
+import http2
+import http2_attacks
+from client import Client, Row
+from probe import Probe
+from server import Server
+
+STATUS = "/clearway.v1.ServerService/GetStatus"
+STATES = "/clearway.v1.CheckService/CheckStates"
+FOLLOW = "/clearway.v1.FollowService/FollowScene"
+
+
+class Attacks:
+    """Each method whose name begins with attack_ is one; it returns its rows."""
+
+    def __init__(self, program, stubs, seconds):
+        self.program, self.stubs, self.seconds = program, stubs, seconds
+
+    def server(self, *flags, **options):
+        return Server(self.program, *flags, **options)
+
+    def fill(self, client, frames=10, points=2000):
+        for i in range(1, frames + 1):
+            client.call("IngestService/PushFrame",
+                        self.stubs.push(i, 100 * i, points=points, x=float(i), seed=i))
+
+    def robot(self, client):
+        reply = self.stubs.check.RegisterRobotResponse()
+        reply.ParseFromString(client.call("CheckService/RegisterRobot", self.stubs.ball()))
+        return reply.robot_id
+
+    def heavy(self, client):
+        """The largest legal request of each method that computes, by method."""
+        return {
+            "ObjectService/PredictPoses": self.stubs.poses(700, 700),
+            "OccupancyService/GetBoxOccupancy": self.stubs.box_of_cells(),
+            "OccupancyService/GetPointOccupancy": self.stubs.points(4_000_000),
+            "OccupancyService/CastRays": self.stubs.rays(500_000, 1e300),
+            "CheckService/CheckStates": self.stubs.states(self.robot(client), 20_000),
+            "IngestService/PushFrame": self.stubs.long_rays(1000, 99_000.0),
+        }
+
+    def attack_legal_requests(self):
+        for method in self.heavy_methods():
+            yield self.legal_request(method)
+
+    def heavy_methods(self):
+        with self.server() as server:
+            client = Client(server.address)
+            self.fill(client)
+            return list(self.heavy(client))
+
+    def legal_request(self, method):
+        """Eight at once, whose replies nobody reads."""
+        with self.server() as server:
+            client = Client(server.address)
+            self.fill(client)
+            client.call("ObjectService/AddObjects", self.stubs.one_object())
+            robot = self.robot(client)
+            body = self.heavy(client)[method].SerializeToString()
+            state = self.stubs.states(robot, 1).SerializeToString()
+            with Probe(server.address, STATES, state) as probe:
+                idle_mb = server.resident_mb()
+                server.reset_peak()
+                probe.take()
+                with http2.Connection(server.port, window=1) as attacker:
+                    for i in range(8):
+                        attacker.call(2 * i + 1, f"/clearway.v1.{method}", body)
+                    delays = [self.push_delay_ms(client, 100 + i) for i in range(5)]
+                    time.sleep(max(2, self.seconds / 6))
+                    seen = probe.take()
+            more_mb = server.peak_mb() - idle_mb
+            met = (more_mb <= 1536 and seen["p99_ms"] <= 25 and seen["failed"] == 0 and
+                   max(delays) <= 100 and server.alive())
+            return Row(f"8 x {method}, unread",
+                       f"+{more_mb:.0f} MB; p99 {seen['p99_ms']:.1f} ms; frame after "
+                       f"{max(delays):.0f} ms", met)
+
+    def push_delay_ms(self, client, sequence):
+        start = time.monotonic()
+        client.call("IngestService/PushFrame",
+                    self.stubs.push(sequence, 1000 + sequence, points=200, sensor="honest"))
+        return (time.monotonic() - start) * 1e3
+
+    def attack_followers(self):
+        one_s, _ = self.frame_cost_s(1, 0)
+        many_s, left = self.frame_cost_s(87, 20)
+        yield Row("107 followers, 20 do not read",
+                  f"{many_s / one_s:.1f} times the processor time of a frame with one ({many_s:.3f} s); "
+                  f"{20 - left} of 20 dropped", many_s <= 3 * one_s and left <= 0)
+
+    def frame_cost_s(self, readers, stalled):
+        """Processor time of a frame, and how many streams of those that do not read are left."""
+        with self.server("--limits-max-stall-s", "5") as server:
+            client = Client(server.address)
+            self.fill(client, frames=3)
+            pid = self.follow_in_a_process(server.port, readers, stalled)
+            try:
+                time.sleep(2)
+                before_s, frames = server.processor_s(), 30
+                for i in range(frames):
+                    client.call("IngestService/PushFrame",
+                                self.stubs.push(10 + i, 1000 + 10 * i, x=float(i), seed=i))
+                cost_s = (server.processor_s() - before_s) / frames
+                time.sleep(6)
+                status = self.status(client)
+                return cost_s, status.follow_streams - readers
+            finally:
+                pid.kill()
+                pid.wait()
+
+    def status(self, client):
+        from clearway.v1 import server_service_pb2
+        reply = server_service_pb2.GetStatusResponse()
+        reply.ParseFromString(client.call("ServerService/GetStatus", b""))
+        return reply
+
+    @staticmethod
+    def follow_in_a_process(port, readers, stalled):
+        code = (
+            "import select, sys, time; sys.path.insert(0, sys.argv[1]); import http2\n"
+            "port, readers, stalled = map(int, sys.argv[2:])\n"
+            "all = [http2.Connection(port, window=2**31 - 1, reads=False)"
+            " for _ in range(readers + stalled)]\n"
+            f"for c in all[:readers]: c.widen()\n"
+            f"for c in all: c.call(1, {FOLLOW!r}, b'')\n"
+            "sockets = [c.socket for c in all[:readers]]\n"
+            "while True:\n"
+            "  for s in select.select(sockets, [], [], 1)[0]: s.recv(1 << 18)\n")
+        return subprocess.Popen([sys.executable, "-c", code, sys.path[0], str(port), str(readers),
+                                 str(stalled)])
+
+    def attack_heavy_batches(self):
+        """Four clients with eight batches each beside one with single states."""
+        with self.server() as server:
+            client = Client(server.address)
+            self.fill(client, frames=20)
+            robot = self.robot(client)
+            batch = self.stubs.states(robot, 20_000).SerializeToString()
+            state = self.stubs.states(robot, 1).SerializeToString()
+            with Probe(server.address, STATES, state, gap_s=0.002) as probe:
+                time.sleep(3)
+                alone = probe.take()
+                codes = []
+                threads = [threading.Thread(
+                    target=lambda c: codes.append(c.code("CheckService/CheckStates", batch, 300)),
+                    args=(sender,)) for sender in [Client(server.address) for _ in range(4)]
+                    for _ in range(8)]
+                for thread in threads:
+                    thread.start()
+                for thread in threads:
+                    thread.join()
+                beside = probe.take()
+            ratio = beside["p99_ms"] / alone["p99_ms"]
+            done = codes.count("OK")
+            yield Row("4 x 8 heavy batches beside single states",
+                      f"p99 {beside['p99_ms']:.1f} ms, {ratio:.1f} times that alone; {done} of 32 done",
+                      ratio <= 5 and done == 32)
+
+    def attack_http2(self):
+        for attack in http2_attacks.ALL:
+            yield self.below_the_calls(attack)
+
+    def below_the_calls(self, attack):
+        with self.server() as server:
+            client = Client(server.address)
+            self.fill(client, frames=3)
+            with Probe(server.address, STATUS, timeout_s=5) as probe:
+                time.sleep(1)
+                probe.take()
+                before_mb = server.resident_mb()
+                server.reset_peak()
+                told = attack(server.port, self.seconds)
+                during = probe.take()
+                more_mb = server.peak_mb() - before_mb
+                time.sleep(2)
+                after = probe.take()
+            alive = server.alive()
+            met = alive and during["most_ms"] is not None and during["most_ms"] <= 1000 and more_mb <= 1536
+            return Row(attack.__name__,
+                       f"{told}; +{more_mb:.0f} MB; others p99 {during['p99_ms']:.0f} ms, at most "
+                       f"{during['most_ms']:.0f} ms, {during['failed']} failed; after p99 "
+                       f"{after['p99_ms']:.0f} ms" if alive and during["n"] and after["n"]
+                       else f"{told}; alive: {alive}; nobody was answered", met)
+
+    def attack_descriptors(self):
+        worst_s, served = 0.0, 0
+        with self.server(descriptors=256) as server:
+            for _ in range(10):
+                silent = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(400)]
+                time.sleep(0.3)
+                for connection in silent:
+                    connection.close()
+                start = time.monotonic()
+                code = ""
+                while code != "OK" and time.monotonic() - start < 5:
+                    code = Client(server.address).code("ServerService/GetStatus", b"", 5)
+                served += code == "OK"
+                worst_s = max(worst_s, time.monotonic() - start)
+        yield Row("descriptors run out, ten times",
+                  f"{served} of 10 new clients served, after {worst_s:.2f} s at most",
+                  served == 10 and worst_s <= 1)
+
+    def attack_signals(self):
+        for method in self.heavy_methods():
+            yield self.ended_during(method)
+
+    def ended_during(self, method):
+        ends = []
+        for twice in (False, True):
+            with self.server() as server:
+                client = Client(server.address)
+                self.fill(client)
+                client.call("ObjectService/AddObjects", self.stubs.one_object())
+                body = self.heavy(client)[method].SerializeToString()
+                with http2.Connection(server.port, window=1) as attacker:
+                    for i in range(8):
+                        attacker.call(2 * i + 1, f"/clearway.v1.{method}", body)
+                    time.sleep(1)
+                    if twice:
+                        server.process.send_signal(signal.SIGTERM)
+                        time.sleep(0.2)
+                    ends.append(server.stop())
+        (code, first_s), (_, second_s) = ends
+        return Row(f"SIGTERM during 8 x {method}",
+                   f"exit {code} after {first_s:.1f} s; a second one {second_s:.2f} s",
+                   code == 0 and first_s <= 11 and second_s <= 0.5)
+
+    def attack_mutations(self):
+        """Requests of all kinds with bytes changed; none may change the scene when it is refused."""
+        dice, codes, slowest_s, changed = random.Random(5), {}, 0.0, 0
+        with self.server("--limits-max-planning-s", "0.05") as server:
+            client = Client(server.address)
+            self.fill(client, frames=3)
+            seeds = {**{m: r.SerializeToString() for m, r in self.heavy_small(client).items()}}
+            end = time.monotonic() + self.seconds
+            while time.monotonic() < end and server.alive():
+                method = dice.choice(list(seeds))
+                version = self.status(client).scene.version
+                start = time.monotonic()
+                code = client.code(method, calls.mutate(seeds[method], dice), 20)
+                slowest_s = max(slowest_s, time.monotonic() - start)
+                codes[code] = codes.get(code, 0) + 1
+                if code != "OK" and self.status(client).scene.version != version:
+                    changed += 1
+            bad = sum(codes.get(code, 0) for code in ("INTERNAL", "UNKNOWN", "DEADLINE_EXCEEDED"))
+            yield Row(f"{sum(codes.values())} mutated requests",
+                      f"{dict(sorted(codes.items()))}; the slowest took {slowest_s:.1f} s; "
+                      f"{changed} refused ones changed the scene",
+                      server.alive() and bad == 0 and changed == 0 and slowest_s < 5)
+
+    def heavy_small(self, client):
+        """Of each method that takes more than an id or two."""
+        return {
+            "IngestService/PushFrame": self.stubs.push(10, 2000, points=20),
+            "CheckService/RegisterRobot": self.stubs.ball(),
+            "CheckService/CheckStates": self.stubs.states(self.robot(client), 3),
+            "OccupancyService/GetPointOccupancy": self.stubs.points(3),
+            "OccupancyService/GetBoxOccupancy": self.stubs.box_of_cells(1.0, 1.0),
+            "OccupancyService/CastRays": self.stubs.rays(3, 50.0),
+            "ObjectService/PredictPoses": self.stubs.poses(2, 2),
+            "ObjectService/AddObjects": self.stubs.one_object(),
+        }
