@@ -100,7 +100,7 @@ void Lag(benchmark::State& state, std::size_t scans) {
   }
 }
 
-Caller ChecksIn(const ScenePtr& scene, const std::vector<StateBatch>& batches) {
+LoadCall ChecksIn(const ScenePtr& scene, const std::vector<StateBatch>& batches) {
   const auto robot =
       std::make_shared<const PreparedRobot>(Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
   CheckOptions options;
@@ -119,8 +119,8 @@ double ChecksInMirrorVsLocal(benchmark::State& state, DriveServer& served, const
   RandomQuestions questions(served.GroundSpace(), 1);
   std::vector<StateBatch> batches;
   for (int i = 0; i < 8; ++i) batches.push_back(questions.States(1'000, {Pose{}}));
-  const std::vector<Caller> local = {ChecksIn(served.Newest(), batches)};
-  const std::vector<Caller> mirrored = {ChecksIn(copy, batches)};
+  const std::vector<LoadCall> local = {ChecksIn(served.Newest(), batches)};
+  const std::vector<LoadCall> mirrored = {ChecksIn(copy, batches)};
   constexpr int kTurns = 8;  // short ones: what disturbs one side disturbs the other
   double in_process = 0, in_mirror = 0;
   for (int i = 0; i < kTurns; ++i) {

@@ -32,7 +32,8 @@ struct Setting {
 };
 
 // Runs the callers; a failure ends the benchmark.
-LoadReport Measure(benchmark::State& state, const std::vector<Caller>& callers, Duration duration) {
+LoadReport Measure(benchmark::State& state, const std::vector<LoadCall>& callers,
+                   Duration duration) {
   auto report = RunLoad(callers, duration);
   if (report.ok()) return *std::move(report);
   state.SkipWithError(report.status().ToString().c_str());
@@ -61,7 +62,7 @@ void Points(benchmark::State& state, Setting& setting, Duration step) {
   QuestionSpace space = setting.served.Space();
   space.step = step;
   if (!AnswersAreTheScenes(setting, space)) return state.SkipWithError("the answers differ");
-  std::vector<Caller> points, echoes;
+  std::vector<LoadCall> points, echoes;
   for (int i = 0; i < setting.callers; ++i) {
     points.push_back(PointsCall(setting.served.address(), space, kPoints, i));
     echoes.push_back(PointsCall(setting.echo.address(), space, kPoints, i));
@@ -76,7 +77,7 @@ void Points(benchmark::State& state, Setting& setting, Duration step) {
 }
 
 // A box-shaped robot at random near the ground.
-Caller StatesCall(Setting& setting, std::size_t states, std::uint64_t seed) {
+LoadCall StatesCall(Setting& setting, std::size_t states, std::uint64_t seed) {
   auto connection = Connection::Open(setting.served.address());
   if (!connection.ok()) return [status = connection.status()] { return status; };
   auto checker = RemoteChecker::Pin(*connection, Robot::SingleShape("robot", Box{{1.0, 0.7, 1.0}}));
@@ -102,7 +103,7 @@ double Median(std::vector<double> values) {
 void OneState(benchmark::State& state, Setting& setting) {
   constexpr int kTurns = 9;
   const Duration turn = setting.turn / kTurns;
-  const auto median_ms = [&](Caller caller) {
+  const auto median_ms = [&](LoadCall caller) {
     return Measure(state, {std::move(caller)}, turn).LatencyMs(0.5);
   };
   for (auto _ : state) {
@@ -117,7 +118,7 @@ void OneState(benchmark::State& state, Setting& setting) {
 }
 
 void States(benchmark::State& state, Setting& setting) {
-  std::vector<Caller> callers;
+  std::vector<LoadCall> callers;
   for (int i = 0; i < setting.callers; ++i) {
     callers.push_back(StatesCall(setting, kStates, i));
   }

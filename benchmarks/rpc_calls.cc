@@ -71,8 +71,8 @@ EchoServer::~EchoServer() = default;
 
 const std::string& EchoServer::address() const { return impl_->address; }
 
-Caller PointsCall(const std::string& address, const QuestionSpace& space, std::size_t points,
-                  std::uint64_t seed) {
+LoadCall PointsCall(const std::string& address, const QuestionSpace& space, std::size_t points,
+                    std::uint64_t seed) {
   RandomQuestions questions(space, seed);
   std::vector<v1::GetPointOccupancyRequest> requests(kBatches);
   for (v1::GetPointOccupancyRequest& request : requests) {
@@ -90,7 +90,7 @@ Caller PointsCall(const std::string& address, const QuestionSpace& space, std::s
   };
 }
 
-Caller EmptyCall(const std::string& address) {
+LoadCall EmptyCall(const std::string& address) {
   const std::shared_ptr stub = v1::ServerService::NewStub(OwnChannel(address));
   return [stub] {
     grpc::ClientContext context;

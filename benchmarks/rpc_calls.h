@@ -25,9 +25,9 @@ class EchoServer {
 // Each over a connection of its own, with requests made beforehand; the answer is parsed.
 //
 // Occupancy of `points` random points, each at its own time.
-Caller PointsCall(const std::string& address, const QuestionSpace& space, std::size_t points,
-                  std::uint64_t seed);
+LoadCall PointsCall(const std::string& address, const QuestionSpace& space, std::size_t points,
+                    std::uint64_t seed);
 // A call whose request is empty.
-Caller EmptyCall(const std::string& address);
+LoadCall EmptyCall(const std::string& address);
 
 }  // namespace clearway::bench

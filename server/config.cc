@@ -11,6 +11,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
 #include "clearway/base/file.h"
 #include "server/environment.h"
 #include "server/listen_address.h"
@@ -142,6 +143,18 @@ absl::Status Require(bool condition, const char* key, const std::string& what) {
 
 }  // namespace
 
+std::optional<unsigned> ParseSocketMode(const std::string& text) {
+  absl::string_view digits = text;
+  absl::ConsumePrefix(&digits, "0");
+  if (digits.size() != 3) return std::nullopt;
+  unsigned mode = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '7') return std::nullopt;
+    mode = mode * 8 + static_cast<unsigned>(digit - '0');
+  }
+  return mode;
+}
+
 absl::Status Validate(const ServerConfig& config) {
   const bool tls = !config.tls_cert.empty() && !config.tls_key.empty();
   static const auto* const kLevels =
@@ -154,10 +167,15 @@ absl::Status Validate(const ServerConfig& config) {
        {!tls && open ? CheckResolves(*listen) : absl::OkStatus(),
         Require(config.tls_cert.empty() == config.tls_key.empty(), "tls_key",
                 "tls_cert and tls_key belong together"),
-        Require(tls || !open, "listen",
+        Require(tls || !open || config.insecure, "listen",
                 absl::StrCat(config.listen,
-                             " can be reached from elsewhere, which needs tls_cert "
-                             "and tls_key")),
+                             " can be reached from elsewhere, which needs tls_cert and tls_key, or "
+                             "insecure if the network itself is safe")),
+        Require(tls || config.tls_client_ca.empty(), "tls_client_ca",
+                "needs tls_cert and tls_key, too"),
+        Require(
+            ParseSocketMode(config.socket_mode).has_value(), "socket_mode",
+            absl::StrCat("\"", config.socket_mode, "\" is not three octal digits, such as 0660")),
         Require(kLevels->count(config.log_level) != 0, "log_level",
                 absl::StrCat("\"", config.log_level, "\" is not a level"))}) {
     if (!status.ok()) return status;

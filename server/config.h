@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,12 @@ struct ServerConfig {
   // As ParseListenAddress: "127.0.0.1:50151" (port 0: any free one) or "unix:/path". Anything but
   // loopback and Unix sockets needs TLS.
   std::string listen = "127.0.0.1:50151";
-  std::string tls_cert, tls_key;  // PEM files
+  std::string tls_cert, tls_key;     // PEM files
+  std::string tls_client_ca;         // PEM file; not empty: clients must show a certificate of its
+  std::string tokens;                // file of a TokenTable; empty: everybody may do everything
+  bool insecure = false;             // no TLS where others than this machine can connect
+  std::string socket_mode = "0600";  // of a Unix socket's file
+  bool reflection = false;
   std::string log_level = "info";
   int threads = 0;                            // that apply frames; 0: as many as the machine has
   int writer_niceness = 5;                    // of those threads: 0, as those that answer, to 19
@@ -36,6 +42,9 @@ struct ServerConfig {
 
 // INVALID_ARGUMENT naming the key, the value and the limit.
 absl::Status Validate(const ServerConfig& config);
+
+// Of ServerConfig::socket_mode: three octal digits, with or without a leading 0.
+std::optional<unsigned> ParseSocketMode(const std::string& text);
 
 // One key of the configuration: "scene.resolution_m" in the file, --scene-resolution-m as a flag,
 // CLEARWAY_SCENE_RESOLUTION_M in the environment.

@@ -34,6 +34,7 @@ Ingestor::Options IngestorOptions(const ServerConfig& config) {
 Leases::Options LeaseOptions(const ServerConfig& config) {
   Leases::Options options;
   options.max_leases = config.limits.max_leases;
+  options.max_of_peer = PeerLimit(config.limits.max_leases, config.limits.max_peer_share);
   options.max_ttl = FromSeconds(config.limits.max_lease_ttl_s);
   return options;
 }
@@ -55,11 +56,20 @@ ServerCore::ServerCore(const ServerConfig& server_config)
       instance(NewInstance()),
       versions(config.kept_versions),
       deltas(instance),
-      streams(FromSeconds(config.limits.max_stall_s)),
+      streams(FromSeconds(config.limits.max_stall_s), FromSeconds(config.limits.max_idle_s)),
       computing(Processors(), kTurn),
       leases(LeaseOptions(config)),
       robots(config.limits, config.scene.resolution_m),
-      ingestor(IngestorOptions(config), versions) {}
+      ingestor(IngestorOptions(config), versions),
+      open_calls(config.limits.max_calls, config.limits.max_peer_share,
+                 [this](bool room) {
+                   if (on_room) on_room(room);
+                 }),
+      follow_streams("follow streams", config.limits.max_follow_streams,
+                     config.limits.max_peer_share),
+      push_streams("push streams", config.limits.max_push_streams, config.limits.max_peer_share),
+      watch_streams("watches", config.limits.max_watch_streams, config.limits.max_peer_share),
+      plans("plans", config.limits.max_plans, config.limits.max_peer_share) {}
 
 absl::StatusOr<ScenePtr> ServerCore::SceneFor(const v1::SceneSelector& selector, const Gone& gone) {
   const SceneQuery query = ReadQuery(selector);
@@ -81,12 +91,6 @@ absl::StatusOr<ScenePtr> ServerCore::SceneFor(const v1::SceneSelector& selector,
   scene = versions.Newest();  // while draining nobody waits
   if (scene->version >= query.min_version) return scene;
   return too_new(scene->version);
-}
-
-absl::Status TooMany(const std::string& what, std::uint64_t limit) {
-  return WithReason(absl::ResourceExhaustedError(
-                        absl::StrCat("too many ", what, " at once; the limit is ", limit)),
-                    "TOO_MANY");
 }
 
 }  // namespace clearway

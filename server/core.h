@@ -3,15 +3,19 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "clearway/v1/scene.pb.h"
+#include "server/access.h"
 #include "server/config.h"
 #include "server/delta_cache.h"
 #include "server/fair_queue.h"
 #include "server/ingestor.h"
 #include "server/leases.h"
+#include "server/open_calls.h"
+#include "server/quota.h"
 #include "server/robots.h"
 #include "server/stream_watch.h"
 #include "server/versions.h"
@@ -41,25 +45,11 @@ struct ServerCore {
 
   std::atomic<bool> draining = false;
   std::atomic<bool> cancelling = false;  // and what computes still shall stop
-  std::atomic<std::uint64_t> calls = 0, follow_streams = 0, push_streams = 0;
-  std::atomic<std::uint64_t> plans = 0, watch_streams = 0;
-};
 
-// Counts someone in for as long as it lives, unless there are too many already. One thread.
-class Slot {
- public:
-  Slot(std::atomic<std::uint64_t>& count, std::uint64_t limit)
-      : count_(count), ok_(count.fetch_add(1) < limit) {}
-  ~Slot() { count_.fetch_sub(1); }
-  Slot(const Slot&) = delete;
-  Slot& operator=(const Slot&) = delete;
-  bool ok() const { return ok_; }
-
- private:
-  std::atomic<std::uint64_t>& count_;
-  const bool ok_;
+  AccessControl access;
+  std::function<void(bool)> on_room;  // set before the first call; see OpenCalls
+  OpenCalls open_calls;
+  Quota follow_streams, push_streams, watch_streams, plans;
 };
-// RESOURCE_EXHAUSTED naming `what`.
-absl::Status TooMany(const std::string& what, std::uint64_t limit);
 
 }  // namespace clearway

@@ -16,9 +16,9 @@ const std::string kPrefix = "CLEARWAY_";
 
 // Names that other parts of Clearway read.
 const std::vector<std::string>& NamesOfOthers() {
-  static const auto* const kNames =
-      new std::vector<std::string>{"CLEARWAY_ADDRESS", "CLEARWAY_ALL_FRAMES", "CLEARWAY_CONFIG",
-                                   "CLEARWAY_DATA",    "CLEARWAY_JOBS",       "CLEARWAY_SERVER"};
+  static const auto* const kNames = new std::vector<std::string>{
+      "CLEARWAY_ADDRESS", "CLEARWAY_ALL_FRAMES", "CLEARWAY_CONFIG",    "CLEARWAY_DATA",
+      "CLEARWAY_JOBS",    "CLEARWAY_SERVER",     "CLEARWAY_TOKEN_FILE"};
   return *kNames;
 }
 

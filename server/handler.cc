@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <random>
 
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
 #include "google/protobuf/unknown_field_set.h"
 #include "spdlog/spdlog.h"
 
@@ -17,12 +19,38 @@ std::uint64_t MarkValue() {
   return value;
 }
 
+// On one line, whatever a client has written.
+std::string ForLog(const absl::Status& status) { return absl::CHexEscape(status.message()); }
+
+std::string NameForLog(const std::string& name, const grpc::ServerContext& context) {
+  const std::string connection = context.peer();
+  return name == connection ? name : absl::StrCat(name, " (", connection, ")");
+}
+
 }  // namespace
 
 grpc::Status ToGrpc(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;
   const google::rpc::Status proto = ToProto(status);
   return {static_cast<grpc::StatusCode>(proto.code()), proto.message(), proto.SerializeAsString()};
+}
+
+absl::StatusOr<Peer> Admit(const ServerCore& core, const grpc::ServerContext& context,
+                           const char* method) {
+  absl::StatusOr<Peer> peer = core.access.Identify(context);
+  absl::Status status = peer.status();
+  if (peer.ok()) status = CheckRole(*peer, method);
+  if (status.ok()) return peer;
+  spdlog::warn("audit: {} refused to {}: {}", method,
+               NameForLog(peer.ok() ? peer->name : "somebody", context), ForLog(status));
+  return status;
+}
+
+void Audit(const Peer& peer, const grpc::ServerContext& context, const char* method,
+           const absl::Status& status) {
+  if (RoleFor(method) != Role::kAdmin) return;
+  spdlog::info("audit: {} by {}: {}", method, NameForLog(peer.name, context),
+               status.ok() ? "done" : ForLog(status));
 }
 
 absl::Status InternalFault(const char* name, const std::exception& exception) {

@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <new>
+#include <type_traits>
 
 #include "google/protobuf/message.h"
 #include "server/core.h"
@@ -25,30 +26,52 @@ absl::Status NoMemory(const char* name);  // RESOURCE_EXHAUSTED
 // RESOURCE_EXHAUSTED for a message above max_message_bytes.
 absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& request);
 
-// Runs body() -> absl::Status as one call of at most max_calls, and keeps third parties' exceptions
-// from the transport: they are INTERNAL, and never the client's doing.
+// Who makes the call: UNAUTHENTICATED, or PERMISSION_DENIED if that client may not, which the log
+// tells.
+absl::StatusOr<Peer> Admit(const ServerCore& core, const grpc::ServerContext& context,
+                           const char* method);
+// Writes a line to the log for each call that only an administrator may make.
+void Audit(const Peer& peer, const grpc::ServerContext& context, const char* method,
+           const absl::Status& status);
+
+// Runs body(peer) -> absl::Status, or body(), as one of the calls that clients may have open, if
+// this client may make it. Third parties' exceptions are kept from the transport: they are
+// INTERNAL, and never the client's doing.
 template <class Body>
-grpc::Status HandleStream(ServerCore& core, const char* name, Body&& body) {
+grpc::Status HandleStream(ServerCore& core, grpc::ServerContext* context, const char* method,
+                          Body&& body) {
   try {
-    const Slot slot(core.calls, core.config.limits.max_calls);
-    if (!slot.ok()) return ToGrpc(TooMany("calls", core.config.limits.max_calls));
-    const absl::Status status = body();
-    const bool cut_off = core.cancelling && absl::IsCancelled(status);
-    return ToGrpc(cut_off ? DrainingError() : status);
+    const absl::StatusOr<Peer> peer = Admit(core, *context, method);
+    if (!peer.ok()) return ToGrpc(peer.status());
+    const OpenCalls::Call call(core.open_calls, *context, *peer, method);
+    if (!call.status().ok()) return ToGrpc(call.status());
+    absl::Status status;
+    if constexpr (std::is_invocable_v<Body, const Peer&>) {
+      status = body(*peer);
+    } else {
+      status = body();
+    }
+    if (core.cancelling && absl::IsCancelled(status)) status = DrainingError();
+    Audit(*peer, *context, method, status);
+    return ToGrpc(status);
   } catch (const std::bad_alloc&) {
-    return ToGrpc(NoMemory(name));
+    return ToGrpc(NoMemory(method));
   } catch (const std::exception& e) {
-    return ToGrpc(InternalFault(name, e));
+    return ToGrpc(InternalFault(method, e));
   }
 }
 
 // HandleStream for a call whose client sends one message.
 template <class Body>
-grpc::Status Handle(ServerCore& core, const char* name, const google::protobuf::Message& request,
-                    Body&& body) {
-  return HandleStream(core, name, [&]() -> absl::Status {
+grpc::Status Handle(ServerCore& core, grpc::ServerContext* context, const char* method,
+                    const google::protobuf::Message& request, Body&& body) {
+  return HandleStream(core, context, method, [&](const Peer& peer) -> absl::Status {
     if (absl::Status status = CheckSize(core, request); !status.ok()) return status;
-    return body();
+    if constexpr (std::is_invocable_v<Body, const Peer&>) {
+      return body(peer);
+    } else {
+      return body();
+    }
   });
 }
 
@@ -76,9 +99,9 @@ absl::Status GarbageError();
 
 // Handle for a query: body(scene, gone) -> absl::Status on the version that the request asks for.
 template <class Request, class Body>
-grpc::Status HandleQuery(ServerCore& core, const char* name, const grpc::ServerContext* context,
+grpc::Status HandleQuery(ServerCore& core, grpc::ServerContext* context, const char* method,
                          const Request& request, Body&& body) {
-  return Handle(core, name, request, [&]() -> absl::Status {
+  return Handle(core, context, method, request, [&]() -> absl::Status {
     const Gone gone = GoneOf(core, context);
     absl::StatusOr<ScenePtr> scene = core.SceneFor(request.selector(), gone);
     if (!scene.ok()) return scene.status();

@@ -1,9 +1,11 @@
 #include "server/leases.h"
 
+#include <algorithm>
 #include <random>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "server/quota.h"
 #include "wire/status.h"
 
 namespace clearway {
@@ -34,7 +36,7 @@ Leases::LeaseMap Leases::TakeEnded() {
   return ended;
 }
 
-absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl) {
+absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl, const std::string& peer) {
   const Duration granted = std::min(ttl, options_.max_ttl);
   LeaseMap ended;  // freed after the lock
   std::lock_guard lock(mutex_);
@@ -44,9 +46,14 @@ absl::StatusOr<LeaseGrant> Leases::Acquire(ScenePtr scene, Duration ttl) {
                           absl::StrCat("as many leases as allowed are held: ", leases_.size())),
                       "TOO_MANY_LEASES");
   }
+  const auto of_peer =
+      std::ranges::count_if(leases_, [&](const auto& entry) { return entry.second.peer == peer; });
+  if (static_cast<std::size_t>(of_peer) >= options_.max_of_peer) {
+    return TooManyOfPeer("leases", options_.max_of_peer);
+  }
   const std::string id = NewId();
   LeaseGrant grant{{scene->version, scene->stamp}, id, granted};
-  leases_[id] = {std::move(scene), options_.now() + granted};
+  leases_[id] = {std::move(scene), options_.now() + granted, peer};
   return grant;
 }
 

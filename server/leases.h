@@ -19,13 +19,15 @@ class Leases {
   using Clock = std::chrono::steady_clock;
   struct Options {
     std::size_t max_leases = 256;
+    std::size_t max_of_peer = 256;
     Duration max_ttl = std::chrono::minutes(10);
     std::function<Clock::time_point()> now = Clock::now;
   };
   explicit Leases(Options options) : options_(std::move(options)) {}
 
-  // RESOURCE_EXHAUSTED when as many as allowed are held. Times to live are cut to the longest.
-  absl::StatusOr<LeaseGrant> Acquire(ScenePtr scene, Duration ttl);
+  // RESOURCE_EXHAUSTED when as many as allowed are held, in all or by the peer. Times to live are
+  // cut to the longest.
+  absl::StatusOr<LeaseGrant> Acquire(ScenePtr scene, Duration ttl, const std::string& peer);
   // FAILED_PRECONDITION once the lease is gone.
   absl::StatusOr<LeaseGrant> Renew(const std::string& id, Duration ttl);
   absl::StatusOr<ScenePtr> Find(const std::string& id);
@@ -36,6 +38,7 @@ class Leases {
   struct Lease {
     ScenePtr scene;
     Clock::time_point end;
+    std::string peer;  // that holds it
   };
   using LeaseMap = std::map<std::string, Lease>;
   // Takes the leases that have ended out of the map, with the lock held. The caller frees them

@@ -1,6 +1,9 @@
 // Where the server listens.
 #pragma once
 
+#include <netdb.h>
+
+#include <memory>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -20,9 +23,10 @@ absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text);
 // INVALID_ARGUMENT if no address is known for the host. May ask a name server.
 absl::Status CheckResolves(const ListenAddress& address);
 
-// Why the server could not listen there: the address is in use (ALREADY_EXISTS), is not this
-// machine's or does not resolve (NOT_FOUND), the socket's folder is missing (NOT_FOUND), there is
-// no permission (PERMISSION_DENIED), and so on. OK if nothing speaks against it.
-absl::Status CheckCanListen(const ListenAddress& address);
+using AddrInfos = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+// The addresses of its host, which is no socket's path. NOT_FOUND if it has none. May ask a name
+// server.
+absl::StatusOr<AddrInfos> Resolve(const ListenAddress& address);
 
 }  // namespace clearway

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "server/acceptor.h"
 #include "server/config.h"
 #include "server/log.h"
 #include "server/memory_use.h"
@@ -21,8 +22,22 @@ constexpr int kBadUsage = 2;
 constexpr int kCannotStart = 1;
 constexpr int kEndedAtOnce = 3;
 
+void Reload(Server& server, const ServerConfig& config) {
+  if (config.tokens.empty() && config.tls_cert.empty()) {
+    spdlog::info("SIGHUP: nothing to read again");
+    return;
+  }
+  const absl::Status status = server.Reload();
+  if (status.ok()) {
+    spdlog::info("SIGHUP: tokens and certificates are read again");
+  } else {
+    spdlog::error("SIGHUP: nothing has changed: {}", std::string(status.message()));
+  }
+}
+
 int Serve(const ServerConfig& config) {
   KeepFewArenas();
+  RaiseDescriptorLimit();
   const Signals signals;
   PreferShortTurns();  // of the threads that answer; those that apply frames give way
   absl::StatusOr<std::unique_ptr<Server>> server = Server::Start(config);
@@ -33,7 +48,7 @@ int Serve(const ServerConfig& config) {
   std::printf("listening on %s\n", (*server)->address().c_str());
   std::fflush(stdout);
   int signal = signals.Next();
-  for (; signal == SIGHUP; signal = signals.Next()) spdlog::info("SIGHUP: nothing to read again");
+  for (; signal == SIGHUP; signal = signals.Next()) Reload(**server, config);
   spdlog::info("signal {}: draining for up to {} s; another one ends at once", signal,
                ToSeconds(config.drain));
   signals.EndAtTheNext(kEndedAtOnce);

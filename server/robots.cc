@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "server/quota.h"
 #include "wire/status.h"
 
 namespace clearway {
@@ -40,12 +41,13 @@ double VolumeOf_m3(const Robot& robot) {
 }  // namespace
 
 Robots::Robots(const ServerLimits& limits, double resolution_m, std::size_t max_triangles)
-    : max_robots_(limits.max_robots),
+    : max_{limits.max_robots, max_triangles},
+      max_of_peer_{PeerLimit(limits.max_robots, limits.max_peer_share),
+                   PeerLimit(max_triangles, limits.max_peer_share)},
       max_voxels_(limits.max_voxels_per_robot),
-      max_triangles_(max_triangles),
       voxel_m3_(std::pow(resolution_m, 3)) {}
 
-absl::StatusOr<Robots::Registered> Robots::Register(Robot robot) {
+absl::StatusOr<Robots::Registered> Robots::Register(Robot robot, const std::string& peer) {
   if (absl::Status status = Validate(robot); !status.ok()) {
     return WithFieldPrefix("robot.", status);
   }
@@ -59,27 +61,57 @@ absl::StatusOr<Robots::Registered> Robots::Register(Robot robot) {
   if (const auto known = Find(id); known.ok()) return Registered{id, (*known)->notes()};
   // Prepared without the lock, as it may take long; two calls may both do it, which is harmless.
   const std::size_t triangles = TrianglesOf(robot);
-  std::list<KnownRobot> entry;
-  entry.push_back({id, triangles, std::make_shared<const PreparedRobot>(std::move(robot))});
+  RobotList entry;
+  entry.push_back({id, triangles, std::make_shared<const PreparedRobot>(std::move(robot)), peer});
   Registered registered{id, entry.front().robot->notes()};
-  std::list<KnownRobot> dropped;  // freed after the lock
+  RobotList dropped;  // freed after the lock
   std::lock_guard lock(mutex_);
   const auto known = std::find_if(robots_.begin(), robots_.end(),
                                   [&](const KnownRobot& other) { return other.id == id; });
   if (known != robots_.end()) dropped.splice(dropped.begin(), robots_, known);
   robots_.splice(robots_.begin(), entry);
-  Forget(dropped);
+  MakeRoom(peer, dropped);
   return registered;
 }
 
-// Moves those used longest ago to `dropped` as long as there are too many, or of too many
-// triangles; the one used last stays.
-void Robots::Forget(std::list<KnownRobot>& dropped) {
-  std::size_t triangles = 0;
-  for (const KnownRobot& known : robots_) triangles += known.triangles;
-  while (robots_.size() > 1 && (robots_.size() > max_robots_ || triangles > max_triangles_)) {
-    triangles -= robots_.back().triangles;
-    dropped.splice(dropped.begin(), robots_, std::prev(robots_.end()));
+std::map<std::string, Robots::Count> Robots::CountsByPeer() const {
+  std::map<std::string, Count> counts;
+  for (const KnownRobot& known : robots_) {
+    Count& count = counts[known.peer];
+    ++count.robots;
+    count.triangles += known.triangles;
+  }
+  return counts;
+}
+
+// Moves the peer's robot that was used longest ago to `dropped`. The one used last of all stays.
+bool Robots::ForgetOneOf(const std::string& peer, RobotList& dropped) {
+  for (auto known = std::prev(robots_.end()); known != robots_.begin(); --known) {
+    if (known->peer != peer) continue;
+    dropped.splice(dropped.begin(), robots_, known);
+    return true;
+  }
+  return false;
+}
+
+void Robots::MakeRoom(const std::string& peer, RobotList& dropped) {
+  const auto exceeds = [](const Count& count, const Count& max) {
+    return count.robots > max.robots || count.triangles > max.triangles;
+  };
+  while (exceeds(CountsByPeer()[peer], max_of_peer_) && ForgetOneOf(peer, dropped)) {
+  }
+  while (true) {
+    Count all;
+    std::string most = peer;
+    const std::map<std::string, Count> counts = CountsByPeer();
+    for (const auto& [name, count] : counts) {
+      all.robots += count.robots;
+      all.triangles += count.triangles;
+      if (count.robots > counts.at(most).robots) most = name;
+    }
+    if (!exceeds(all, max_) || robots_.size() == 1) return;
+    // Of several that have one each, the one that was used longest ago goes.
+    if (!ForgetOneOf(most, dropped)) ForgetOneOf(robots_.back().peer, dropped);
   }
 }
 

@@ -14,8 +14,8 @@ struct ServerCore;
 // A running server. Any thread may call any method; it ends with Drain or its destruction.
 class Server {
  public:
-  // Listens and serves. `config` must pass Validate. Errors are those of CheckCanListen and
-  // ReadTlsFiles.
+  // Listens and serves. `config` must pass Validate. Errors are those of Listen, ReadTlsFiles and
+  // TokenTable::Read.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config);
   ~Server();
 
@@ -29,6 +29,11 @@ class Server {
   // still being applied or clients that read nothing still held connections: destroying the server
   // then waits for them, and a program that ends should leave at once.
   bool Drain();
+
+  // Reads tokens and certificates again. Calls of clients that may no longer make them end with
+  // UNAUTHENTICATED or PERMISSION_DENIED; other calls and all connections go on. An error of
+  // ReadTlsFiles or TokenTable::Read changes nothing. One thread at a time.
+  absl::Status Reload();
 
  private:
   struct Impl;

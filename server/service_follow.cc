@@ -110,10 +110,9 @@ class Follower {
 grpc::Status FollowHandlers::FollowScene(grpc::ServerContext* context,
                                          const v1::FollowSceneRequest* request,
                                          grpc::ServerWriter<v1::FollowSceneResponse>* writer) {
-  return Handle(core_, "FollowScene", *request, [&]() -> absl::Status {
-    const std::uint64_t limit = core_.config.limits.max_follow_streams;
-    const Slot slot(core_.follow_streams, limit);
-    if (!slot.ok()) return TooMany("follow streams", limit);
+  return Handle(core_, context, "FollowScene", *request, [&](const Peer& peer) -> absl::Status {
+    const Quota::Slot slot(core_.follow_streams, peer.name);
+    if (!slot.status().ok()) return slot.status();
     FieldReader read;
     const double interval_s = read.NotNegative("min_interval_s", request->min_interval_s());
     const double beat_s = read.NotNegative("heartbeat_s", request->heartbeat_s());

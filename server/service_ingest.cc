@@ -152,7 +152,7 @@ class AnswerWriter {
 grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
                                        const v1::PushFrameRequest* request,
                                        v1::PushFrameResponse* response) {
-  return Handle(core_, "PushFrame", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "PushFrame", *request, [&]() -> absl::Status {
     absl::StatusOr<Accepted> accepted = Accept(core_, *request, [&](PushedFrame pushed) {
       return core_.ingestor.Push(std::move(pushed));
     });
@@ -167,10 +167,10 @@ grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
 grpc::Status IngestHandlers::PushFrames(
     grpc::ServerContext* context,
     grpc::ServerReaderWriter<v1::PushFramesResponse, v1::PushFramesRequest>* stream) {
-  return HandleStream(core_, "PushFrames", [&]() -> absl::Status {
+  return HandleStream(core_, context, "PushFrames", [&](const Peer& peer) -> absl::Status {
     const ServerLimits& limits = core_.config.limits;
-    const Slot slot(core_.push_streams, limits.max_push_streams);
-    if (!slot.ok()) return TooMany("push streams", limits.max_push_streams);
+    const Quota::Slot slot(core_.push_streams, peer.name);
+    if (!slot.status().ok()) return slot.status();
     if (core_.draining) return DrainingError();
     // Tells the client that the stream is open before there is anything to answer.
     context->AddInitialMetadata("clearway-server-instance", core_.instance);

@@ -42,7 +42,7 @@ absl::Status ForMotions(const absl::Status& status) {
 grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
                                               const v1::FindSafeIntervalsRequest* request,
                                               v1::FindSafeIntervalsResponse* response) {
-  return Handle(core_, "FindSafeIntervals", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "FindSafeIntervals", *request, [&]() -> absl::Status {
     const auto robot = core_.robots.Find(request->robot_id());
     if (!robot.ok()) return robot.status();
     const auto question =
@@ -64,7 +64,7 @@ grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
 grpc::Status CheckHandlers::FindDepartureIntervals(grpc::ServerContext* context,
                                                    const v1::FindDepartureIntervalsRequest* request,
                                                    v1::FindDepartureIntervalsResponse* response) {
-  return Handle(core_, "FindDepartureIntervals", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "FindDepartureIntervals", *request, [&]() -> absl::Status {
     const v1::CheckMotionsRequest& motions = request->motions();
     FieldReader read;
     read.Require(request->has_motions(), "motions", "is missing");

@@ -91,7 +91,7 @@ std::int64_t MaxVoxelsOf(const ServerLimits& limits) {
 grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
                                     const v1::ExportMapRequest* request,
                                     grpc::ServerWriter<v1::ExportMapResponse>* writer) {
-  return Handle(core_, "ExportMap", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "ExportMap", *request, [&]() -> absl::Status {
     const absl::StatusOr<MapFormat> format = ReadFormat(request->format());
     if (!format.ok()) return format.status();
     const absl::StatusOr<ExportTarget> target = ReadTarget(*request);
@@ -113,7 +113,7 @@ grpc::Status MapHandlers::ExportMap(grpc::ServerContext* context,
 grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
                                     grpc::ServerReader<v1::LoadPriorRequest>* reader,
                                     v1::LoadPriorResponse* response) {
-  return HandleStream(core_, "LoadPrior", [&]() -> absl::Status {
+  return HandleStream(core_, context, "LoadPrior", [&]() -> absl::Status {
     const std::uint64_t max_bytes = core_.config.limits.max_prior_bytes;
     int format = v1::MAP_FORMAT_UNSPECIFIED;
     absl::StatusOr<std::string> bytes = ReadPieces(core_, *context, *reader, format);
@@ -145,7 +145,7 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
 grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
                                       const v1::ClearRegionRequest* request,
                                       v1::ClearRegionResponse* response) {
-  return Handle(core_, "ClearRegion", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "ClearRegion", *request, [&]() -> absl::Status {
     FieldReader read;
     const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
     if (!read.ok()) return read.status();
@@ -167,7 +167,7 @@ grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
 grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
                                      const v1::SetKeepOutRequest* request,
                                      v1::SetKeepOutResponse* response) {
-  return Handle(core_, "SetKeepOut", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "SetKeepOut", *request, [&]() -> absl::Status {
     FieldReader read;
     read.AtMost("boxes_world", request->boxes_world_size(), core_.config.limits.max_boxes);
     std::vector<Aabb> boxes_W;
@@ -187,7 +187,7 @@ grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
 
 grpc::Status MapHandlers::Reset(grpc::ServerContext* context, const v1::ResetRequest* request,
                                 v1::ResetResponse* response) {
-  return Handle(core_, "Reset", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "Reset", *request, [&]() -> absl::Status {
     const auto change = [](SceneBuilder& builder) {
       builder.Reset();
       return absl::OkStatus();

@@ -22,7 +22,7 @@ absl::Status KnowingObjects(absl::Status status) {
 grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
                                          const v1::ListObjectsRequest* request,
                                          v1::ListObjectsResponse* response) {
-  return HandleQuery(core_, "ListObjects", context, *request,
+  return HandleQuery(core_, context, "ListObjects", *request,
                      [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
                        const absl::StatusOr<ObjectList> list = DescribeObjects(scene, gone);
                        if (!list.ok()) return list.status();
@@ -38,7 +38,7 @@ grpc::Status ObjectHandlers::GetObject(grpc::ServerContext* context,
                                        const v1::GetObjectRequest* request,
                                        v1::GetObjectResponse* response) {
   return HandleQuery(
-      core_, "GetObject", context, *request, [&](const SceneSnapshot& scene, const Gone&) {
+      core_, context, "GetObject", *request, [&](const SceneSnapshot& scene, const Gone&) {
         const MovingObject* object = scene.FindObject(request->object_id());
         if (object == nullptr) {
           return WithReason(
@@ -56,7 +56,7 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
                                           const v1::PredictPosesRequest* request,
                                           v1::PredictPosesResponse* response) {
   return HandleQuery(
-      core_, "PredictPoses", context, *request,
+      core_, context, "PredictPoses", *request,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         FieldReader read;
         const ServerLimits& limits = core_.config.limits;
@@ -81,7 +81,7 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::AddObjects(grpc::ServerContext* context,
                                         const v1::AddObjectsRequest* request,
                                         v1::AddObjectsResponse* response) {
-  return Handle(core_, "AddObjects", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "AddObjects", *request, [&]() -> absl::Status {
     absl::StatusOr<std::vector<GivenObject>> objects =
         ReadGivenObjects(*request, core_.config.limits);
     if (!objects.ok()) return objects.status();
@@ -95,7 +95,7 @@ grpc::Status ObjectHandlers::AddObjects(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::RemoveObjects(grpc::ServerContext* context,
                                            const v1::RemoveObjectsRequest* request,
                                            v1::RemoveObjectsResponse* response) {
-  return Handle(core_, "RemoveObjects", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "RemoveObjects", *request, [&]() -> absl::Status {
     FieldReader read;
     read.AtMost("object_ids", request->object_ids_size(), core_.config.limits.max_objects);
     if (!read.ok()) return read.status();
@@ -110,7 +110,7 @@ grpc::Status ObjectHandlers::RemoveObjects(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::SetFutures(grpc::ServerContext* context,
                                         const v1::SetFuturesRequest* request,
                                         v1::SetFuturesResponse* response) {
-  return Handle(core_, "SetFutures", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "SetFutures", *request, [&]() -> absl::Status {
     absl::StatusOr<std::vector<ObjectFuture>> futures = ReadFutures(*request, core_.config.limits);
     if (!futures.ok()) return futures.status();
     const auto change = [futures = *std::move(futures)](SceneBuilder& builder) {

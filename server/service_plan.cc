@@ -55,10 +55,9 @@ absl::Status Serve(ServerCore& core, const v1::PlanRequest& request, grpc::Serve
 
 grpc::Status PlanHandlers::Plan(grpc::ServerContext* context, const v1::PlanRequest* request,
                                 grpc::ServerWriter<v1::PlanResponse>* writer) {
-  return Handle(core_, "Plan", *request, [&]() -> absl::Status {
-    const std::uint64_t limit = core_.config.limits.max_plans;
-    const Slot slot(core_.plans, limit);
-    if (!slot.ok()) return TooMany("plans", limit);
+  return Handle(core_, context, "Plan", *request, [&](const Peer& peer) -> absl::Status {
+    const Quota::Slot slot(core_.plans, peer.name);
+    if (!slot.status().ok()) return slot.status();
     return Serve(core_, *request, *context, *writer);
   });
 }

@@ -6,10 +6,10 @@
 
 namespace clearway {
 
-grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*,
+grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext* context,
                                          const v1::GetServerInfoRequest* request,
                                          v1::GetServerInfoResponse* response) {
-  return Handle(core_, "GetServerInfo", *request, [&] {
+  return Handle(core_, context, "GetServerInfo", *request, [&] {
     const ScenePtr scene = core_.versions.Newest();
     const ServerInfo info{VersionOf(*scene), CLEARWAY_VERSION, core_.instance, core_.config.limits,
                           scene->params};
@@ -21,7 +21,7 @@ grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext*,
 grpc::Status InfoHandlers::GetStatus(grpc::ServerContext* context,
                                      const v1::GetStatusRequest* request,
                                      v1::GetStatusResponse* response) {
-  return Handle(core_, "GetStatus", *request, [&]() -> absl::Status {
+  return Handle(core_, context, "GetStatus", *request, [&]() -> absl::Status {
     const Gone must_end = WorkOf(core_, context);
     const ScenePtr scene = core_.versions.Newest();
     const IngestCounts counts = core_.ingestor.counts();
@@ -43,9 +43,9 @@ grpc::Status InfoHandlers::GetStatus(grpc::ServerContext* context,
     status.static_box_W = BoxAroundBlocks(scene->static_map_W);
     status.robots = core_.robots.size();
     status.leases = core_.leases.size();
-    status.follow_streams = core_.follow_streams;
-    status.push_streams = core_.push_streams;
-    status.watch_streams = core_.watch_streams;
+    status.follow_streams = core_.follow_streams.size();
+    status.push_streams = core_.push_streams.size();
+    status.watch_streams = core_.watch_streams.size();
     const MemoryUse memory = CurrentMemoryUse();
     status.resident_bytes = memory.resident_bytes;
     status.heap_bytes_in_use = memory.heap_bytes_in_use;

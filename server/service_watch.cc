@@ -82,10 +82,9 @@ absl::Status Watch(ServerCore& core, const v1::CheckMotionsRequest& request,
 grpc::Status CheckHandlers::WatchMotions(grpc::ServerContext* context,
                                          const v1::WatchMotionsRequest* request,
                                          grpc::ServerWriter<v1::WatchMotionsResponse>* writer) {
-  return Handle(core_, "WatchMotions", *request, [&]() -> absl::Status {
-    const std::uint64_t limit = core_.config.limits.max_watch_streams;
-    const Slot slot(core_.watch_streams, limit);
-    if (!slot.ok()) return TooMany("watch streams", limit);
+  return Handle(core_, context, "WatchMotions", *request, [&](const Peer& peer) -> absl::Status {
+    const Quota::Slot slot(core_.watch_streams, peer.name);
+    if (!slot.status().ok()) return slot.status();
     FieldReader read;
     read.Require(request->has_motions(), "motions", "is missing");
     read.Require(!request->motions().has_selector(), "motions.selector",

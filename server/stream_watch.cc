@@ -10,7 +10,12 @@
 
 namespace clearway {
 
-StreamWatch::StreamWatch(Duration patience) : patience_(patience), thread_([this] { Run(); }) {}
+StreamWatch::StreamWatch(Duration for_reader, Duration for_writer)
+    : for_reader_{for_reader, absl::StrCat("the client read nothing for ", ToSeconds(for_reader),
+                                           " s: the stream has ended")},
+      for_writer_{for_writer, absl::StrCat("the client wrote nothing for ", ToSeconds(for_writer),
+                                           " s: the stream has ended")},
+      thread_([this] { Run(); }) {}
 
 StreamWatch::~StreamWatch() {
   {
@@ -27,7 +32,6 @@ StreamWatch::Turn::Turn(StreamWatch& watch, grpc::ServerContext& context, For wh
       turns_(what == For::kReading ? watch.reading_ : watch.writing_) {
   std::lock_guard lock(watch_.mutex_);
   place_ = turns_.insert(turns_.end(), this);
-  if (!watch_.all_end_.empty()) End(watch_.all_end_);
 }
 
 StreamWatch::Turn::~Turn() {
@@ -36,33 +40,25 @@ StreamWatch::Turn::~Turn() {
 }
 
 // The status goes out beside the bytes that are not read: TryCancel would send CANCELLED alone.
-void StreamWatch::Turn::End(const std::string& message) {
-  if (std::exchange(ended_, true)) return;
-  grpc_call_cancel_with_status(context_.c_call(), GRPC_STATUS_UNAVAILABLE, message.c_str(),
-                               nullptr);
-}
-
-void StreamWatch::EndAll(const std::string& message) {
-  std::lock_guard lock(mutex_);
-  all_end_ = message;
-  for (Turn* turn : writing_) turn->End(message);
-  for (Turn* turn : reading_) turn->End(message);
+void StreamWatch::EndOld(const std::list<Turn*>& turns, const Patience& patience) {
+  const auto latest = std::chrono::steady_clock::now() - patience.duration;
+  for (Turn* turn : turns) {
+    if (turn->began_ > latest) break;
+    if (std::exchange(turn->ended_, true)) continue;
+    spdlog::warn("{}: {}", turn->context_.peer(), patience.message);
+    grpc_call_cancel_with_status(turn->context_.c_call(), GRPC_STATUS_UNAVAILABLE,
+                                 patience.message.c_str(), nullptr);
+  }
 }
 
 void StreamWatch::Run() {
-  const std::string message = absl::StrCat("the client read nothing for ", ToSeconds(patience_),
-                                           " s: the stream has ended");
+  const Duration shorter = std::min(for_reader_.duration, for_writer_.duration);
   std::unique_lock lock(mutex_);
   while (!stop_) {
-    changed_.wait_for(lock, std::clamp<Duration>(patience_ / 4, std::chrono::milliseconds(10),
+    changed_.wait_for(lock, std::clamp<Duration>(shorter / 4, std::chrono::milliseconds(10),
                                                  std::chrono::seconds(1)));
-    const auto latest = std::chrono::steady_clock::now() - patience_;
-    for (Turn* turn : writing_) {
-      if (turn->began_ > latest) break;
-      if (turn->ended_) continue;
-      spdlog::warn("{}: {}", turn->context_.peer(), message);
-      turn->End(message);
-    }
+    EndOld(writing_, for_reader_);
+    EndOld(reading_, for_writer_);
   }
 }
 

@@ -1,4 +1,4 @@
-// Ends streams that wait for their client: those that do not read, and all when the server ends.
+// Ends streams whose client neither reads nor writes.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -15,19 +15,16 @@
 namespace clearway {
 
 // A message that its client does not read blocks the thread that writes it, and holds the version
-// it is about; a thread that reads waits until its client writes. gRPC alone would end both with
-// CANCELLED, or UNAVAILABLE, as it happens. Any thread may call any method; contexts must outlive
-// their turns.
+// it is about; a client that writes nothing keeps a thread, too. Any thread may call any method;
+// contexts must outlive their turns.
 class StreamWatch {
  public:
-  // After so much time without a byte read, the stream ends with UNAVAILABLE.
-  explicit StreamWatch(Duration patience);
+  // After so much time for a message that the server writes, or waits for, the stream ends with
+  // UNAVAILABLE.
+  StreamWatch(Duration for_reader, Duration for_writer);
   ~StreamWatch();
   StreamWatch(const StreamWatch&) = delete;
   StreamWatch& operator=(const StreamWatch&) = delete;
-
-  // Streams that wait for their client end with UNAVAILABLE, and so do those that come to wait.
-  void EndAll(const std::string& message);
 
   enum class For { kReading, kWriting };
 
@@ -41,25 +38,27 @@ class StreamWatch {
 
    private:
     friend class StreamWatch;
-    void End(const std::string& message);  // under the watch's mutex
-
     StreamWatch& watch_;
     grpc::ServerContext& context_;
-    std::list<Turn*>& turns_;
+    std::list<Turn*>& turns_;  // of the watch
     const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
     bool ended_ = false;
     std::list<Turn*>::iterator place_;
   };
 
  private:
+  struct Patience {
+    Duration duration;
+    std::string message;
+  };
   void Run();
+  static void EndOld(const std::list<Turn*>& turns, const Patience& patience);
 
-  const Duration patience_;
+  const Patience for_reader_, for_writer_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::list<Turn*> writing_;  // the one that began first, first
   std::list<Turn*> reading_;
-  std::string all_end_;  // why; empty until they do
   bool stop_ = false;
   std::thread thread_;
 };

@@ -10,6 +10,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
+#include "clearway/base/secret_file.h"
 #include "wire/pem.h"
 
 namespace clearway {
@@ -36,8 +37,11 @@ absl::Status Bad(const char* field, const std::string& path, const std::string& 
   return absl::InvalidArgumentError(absl::StrCat(field, ": ", path, " ", what));
 }
 
-absl::StatusOr<std::string> ReadPem(const char* field, const std::string& path) {
-  absl::StatusOr<std::string> text = ReadWholeFile(path, kMaxBytes);
+enum class Secrecy { kPublic, kSecret };
+
+absl::StatusOr<std::string> ReadPem(const char* field, const std::string& path, Secrecy secrecy) {
+  absl::StatusOr<std::string> text = secrecy == Secrecy::kSecret ? ReadSecretFile(path, kMaxBytes)
+                                                                 : ReadWholeFile(path, kMaxBytes);
   if (!text.ok()) {
     return absl::Status(text.status().code(), absl::StrCat(field, ": ", text.status().message()));
   }
@@ -91,38 +95,62 @@ absl::Status CheckForTls(X509* certificate, EVP_PKEY* key, const std::string& ce
   return absl::OkStatus();
 }
 
+absl::Status CheckNotExpired(const X509* certificate, const char* field, const std::string& path) {
+  if (X509_cmp_current_time(X509_get0_notAfter(certificate)) >= 0) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(field, ": ", path, " has expired"));
+}
+
 // A machine without a battery may not know the date yet, so this is no error.
-std::string ValidityWarning(const X509* certificate, const std::string& path) {
-  if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0) {
-    return absl::StrCat("tls_cert: ", path, " has expired; clients will refuse it");
+std::string NotYetValidWarning(const X509* certificate, const std::string& path) {
+  if (X509_cmp_current_time(X509_get0_notBefore(certificate)) <= 0) return "";
+  return absl::StrCat("tls_cert: ", path, " is not valid yet; clients will refuse it");
+}
+
+absl::Status CheckPair(X509* own, EVP_PKEY* key, const std::string& cert_path,
+                       const std::string& key_path) {
+  if (X509_check_private_key(own, key) != 1) {
+    ERR_clear_error();
+    return Bad("tls_key", key_path,
+               absl::StrCat("does not belong to tls_cert ", cert_path,
+                            " (its first certificate must be the server's own)"));
   }
-  if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0) {
-    return absl::StrCat("tls_cert: ", path, " is not valid yet; clients will refuse it");
+  if (auto s = CheckForTls(own, key, cert_path, key_path); !s.ok()) return s;
+  return CheckNotExpired(own, "tls_cert", cert_path);
+}
+
+absl::StatusOr<std::string> ReadClientCa(const std::string& path) {
+  constexpr char kField[] = "tls_client_ca";
+  absl::StatusOr<std::string> pem = ReadPem(kField, path, Secrecy::kPublic);
+  if (!pem.ok()) return pem;
+  const auto authorities = ReadCertificates(absl::StrCat(kField, ": ", path), *pem);
+  if (!authorities.ok()) return authorities.status();
+  for (const Certificate& authority : *authorities) {
+    if (auto s = CheckNotExpired(authority.get(), kField, path); !s.ok()) return s;
   }
-  return "";
+  return pem;
 }
 
 }  // namespace
 
-absl::StatusOr<TlsFiles> ReadTlsFiles(const std::string& cert_path, const std::string& key_path) {
+absl::StatusOr<TlsFiles> ReadTlsFiles(const std::string& cert_path, const std::string& key_path,
+                                      const std::string& client_ca_path) {
   ERR_clear_error();
-  absl::StatusOr<std::string> cert = ReadPem("tls_cert", cert_path);
+  absl::StatusOr<std::string> cert = ReadPem("tls_cert", cert_path, Secrecy::kPublic);
   if (!cert.ok()) return cert.status();
-  absl::StatusOr<std::string> key = ReadPem("tls_key", key_path);
+  absl::StatusOr<std::string> key = ReadPem("tls_key", key_path, Secrecy::kSecret);
   if (!key.ok()) return key.status();
   const absl::StatusOr<std::vector<Certificate>> chain = ReadChain(*cert, cert_path);
   if (!chain.ok()) return chain.status();
   const absl::StatusOr<Key> private_key = ReadKey(*key, key_path);
   if (!private_key.ok()) return private_key.status();
   X509* const own = chain->front().get();
-  if (X509_check_private_key(own, private_key->get()) != 1) {
-    ERR_clear_error();
-    return Bad("tls_key", key_path,
-               absl::StrCat("does not belong to tls_cert ", cert_path,
-                            " (its first certificate must be the server's own)"));
-  }
-  if (auto s = CheckForTls(own, private_key->get(), cert_path, key_path); !s.ok()) return s;
-  return TlsFiles{*std::move(cert), *std::move(key), ValidityWarning(own, cert_path)};
+  if (auto s = CheckPair(own, private_key->get(), cert_path, key_path); !s.ok()) return s;
+  TlsFiles files{*std::move(cert), *std::move(key), "", NotYetValidWarning(own, cert_path)};
+  if (client_ca_path.empty()) return files;
+  absl::StatusOr<std::string> client_ca = ReadClientCa(client_ca_path);
+  if (!client_ca.ok()) return client_ca.status();
+  files.client_ca = *std::move(client_ca);
+  return files;
 }
 
 }  // namespace clearway

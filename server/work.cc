@@ -43,7 +43,8 @@ bool Work::MustEnd() {
   const Clock::time_point now = Clock::now();
   if (must_end_ || now < next_look_) return must_end_;
   next_look_ = now + kLook;
-  if (!turn_ && ThreadTime() - began_ >= kShort) turn_.emplace(core_.computing, context_->peer());
+  if (!turn_ && ThreadTime() - began_ >= kShort)
+    turn_.emplace(core_.computing, core_.access.NameOf(*context_));
   must_end_ = gone_() || (turn_ && !turn_->Take(gone_));
   return must_end_;
 }

@@ -40,6 +40,7 @@ void AddAllCommands(Cli& cli) {
   AddKeepOut(cli);
   AddReset(cli);
   AddServerInfo(cli);
+  AddToken(cli);
   AddBench(cli);
 }
 

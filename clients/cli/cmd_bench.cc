@@ -52,8 +52,8 @@ absl::Status AtMost(const std::string& items, std::size_t batch, std::size_t lim
       absl::StrCat("--", items, " ", batch, ": the server takes at most ", limit, " at once"));
 }
 
-Caller PointCaller(std::shared_ptr<Connection> connection, std::size_t points,
-                   RandomQuestions questions) {
+LoadCall PointCaller(std::shared_ptr<Connection> connection, std::size_t points,
+                     RandomQuestions questions) {
   struct Batch {
     std::vector<Eigen::Vector3f> points_W;
     std::vector<Time> times;
@@ -67,8 +67,8 @@ Caller PointCaller(std::shared_ptr<Connection> connection, std::size_t points,
   };
 }
 
-Caller StateCaller(std::shared_ptr<RemoteChecker> checker, const std::vector<Pose>& T_R_L,
-                   std::size_t states, const CheckOptions& options, RandomQuestions questions) {
+LoadCall StateCaller(std::shared_ptr<RemoteChecker> checker, const std::vector<Pose>& T_R_L,
+                     std::size_t states, const CheckOptions& options, RandomQuestions questions) {
   std::vector<StateBatch> batches(kBatches);
   for (StateBatch& batch : batches) batch = questions.States(states, T_R_L);
   return [checker = std::move(checker), options, batches = std::move(batches),
@@ -77,8 +77,8 @@ Caller StateCaller(std::shared_ptr<RemoteChecker> checker, const std::vector<Pos
   };
 }
 
-absl::StatusOr<Caller> MakeCaller(const Flags& flags, std::shared_ptr<Connection> connection,
-                                  const RandomQuestions& questions, std::size_t batch) {
+absl::StatusOr<LoadCall> MakeCaller(const Flags& flags, std::shared_ptr<Connection> connection,
+                                    const RandomQuestions& questions, std::size_t batch) {
   if (!flags.states) {
     const std::uint64_t limit = connection->server().limits.max_points_per_query;
     if (absl::Status status = AtMost("points", batch, limit); !status.ok()) return status;
@@ -101,7 +101,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   BenchOutput output;
   output.items = flags.states ? "states" : "points";
   output.batch = flags.states ? *flags.states : flags.points.value_or(1000);
-  std::vector<Caller> callers;
+  std::vector<LoadCall> callers;
   for (int i = 0; i < flags.connections; ++i) {
     auto connection = Connect(flags.server);
     if (!connection.ok()) return connection.status();

@@ -49,6 +49,9 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_planning_s", l.max_planning_s},
           {"max_watch_streams", l.max_watch_streams},
           {"max_stall_s", l.max_stall_s},
+          {"max_connections", l.max_connections},
+          {"max_idle_s", l.max_idle_s},
+          {"max_peer_share", l.max_peer_share},
           {"max_stamp_jump_s", l.max_stamp_jump_s},
           {"late_window_s", l.late_window_s}};
 }

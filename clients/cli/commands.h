@@ -11,6 +11,9 @@ void AddInfo(Cli& cli);
 void AddRecord(Cli& cli);
 void AddEvaluate(Cli& cli);
 
+// Files of a server, no server needed.
+void AddToken(Cli& cli);
+
 // Everything below talks to a server.
 void AddReplay(Cli& cli);
 void AddStatus(Cli& cli);

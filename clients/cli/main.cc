@@ -21,6 +21,7 @@ void NoteMisspeltAddress() {
     const std::string text = *entry;
     const std::string name = text.substr(0, text.find('='));
     if (!name.starts_with(prefix) || name == prefix + "ADDRESS") continue;
+    if (name == prefix + "TOKEN_FILE") continue;
     if (clearway::NearestName(name.substr(prefix.size()), {"ADDRESS"}).empty()) continue;
     std::cerr << "note: environment: " << name << " is ignored; did you mean CLEARWAY_ADDRESS?\n";
   }

@@ -18,7 +18,7 @@ class Load {
  public:
   Load(std::ptrdiff_t callers, Duration duration) : start_(callers), duration_(duration) {}
 
-  void Run(const Caller& caller) {
+  void Run(const LoadCall& caller) {
     Note(caller(), {});
     start_.arrive_and_wait();
     std::vector<double> latencies_ms;
@@ -71,10 +71,10 @@ double LoadReport::LatencyMs(double share) const {
   return latencies_ms[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-absl::StatusOr<LoadReport> RunLoad(const std::vector<Caller>& callers, Duration duration) {
+absl::StatusOr<LoadReport> RunLoad(const std::vector<LoadCall>& callers, Duration duration) {
   Load load(std::ssize(callers), duration);
   std::vector<std::thread> threads;
-  for (const Caller& caller : callers) threads.emplace_back([&] { load.Run(caller); });
+  for (const LoadCall& caller : callers) threads.emplace_back([&] { load.Run(caller); });
   for (std::thread& thread : threads) thread.join();
   return std::move(load).Report();
 }

@@ -22,10 +22,10 @@ struct LoadReport {
 };
 
 // One question and its answer. Each caller's is called by one thread.
-using Caller = std::function<absl::Status()>;
+using LoadCall = std::function<absl::Status()>;
 
 // Runs each caller on a thread of its own for `duration`: a question, its answer, the next
 // question. Each calls once before the clock starts. The first error ends the load and is returned.
-absl::StatusOr<LoadReport> RunLoad(const std::vector<Caller>& callers, Duration duration);
+absl::StatusOr<LoadReport> RunLoad(const std::vector<LoadCall>& callers, Duration duration);
 
 }  // namespace clearway

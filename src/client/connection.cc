@@ -4,38 +4,16 @@
 #include <limits>
 
 #include "absl/strings/str_cat.h"
-#include "clearway/base/file.h"
 #include "clearway/client/error_details.h"
 #include "client/call.h"
+#include "client/credentials.h"
 #include "client/tls_diagnosis.h"
-#include "wire/pem.h"
 #include "wire/server_address.h"
 #include "wire/server_wire.h"
 #include "wire/status.h"
 
 namespace clearway {
 namespace {
-
-absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> CredentialsOf(
-    const ConnectionOptions& options) {
-  if (options.tls_root_certificates_file.empty()) return grpc::InsecureChannelCredentials();
-  constexpr std::uint64_t kMaxBytes = 16'000'000;
-  absl::StatusOr<std::string> pem = ReadWholeFile(options.tls_root_certificates_file, kMaxBytes);
-  if (!pem.ok()) {
-    return absl::Status(pem.status().code(),
-                        absl::StrCat("tls_root_certificates_file: ", pem.status().message()));
-  }
-  if (pem->empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "tls_root_certificates_file: ", options.tls_root_certificates_file, ": is empty"));
-  }
-  const auto roots = ReadCertificates(
-      absl::StrCat("tls_root_certificates_file: ", options.tls_root_certificates_file), *pem);
-  if (!roots.ok()) return roots.status();
-  grpc::SslCredentialsOptions tls;
-  tls.pem_root_certs = *std::move(pem);
-  return grpc::SslCredentials(tls);
-}
 
 // A server that does not answer for the sake of TLS does answer.
 absl::Status Explained(const absl::Status& status, const ServerAddress& address,
@@ -96,12 +74,14 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   static const auto* const kUse = new AddressUse{"address", 1, "127.0.0.1 is this machine"};
   const absl::StatusOr<ServerAddress> target = ParseServerAddress(address, *kUse);
   if (!target.ok()) return target.status();
-  auto credentials = CredentialsOf(options);
+  const auto credentials = ReadCredentials(options, *target);
   if (!credentials.ok()) return credentials.status();
   auto impl = std::make_unique<Impl>();
   impl->address = address;
   impl->options = options;
-  impl->channel = grpc::CreateCustomChannel(target->ToTarget(), *credentials, ArgumentsOf(options));
+  impl->channel = grpc::experimental::CreateCustomChannelWithInterceptors(
+      target->ToTarget(), credentials->channel, ArgumentsOf(options),
+      InterceptorsFor(credentials->token));
   impl->check = v1::CheckService::NewStub(impl->channel);
   impl->follow = v1::FollowService::NewStub(impl->channel);
   impl->ingest = v1::IngestService::NewStub(impl->channel);

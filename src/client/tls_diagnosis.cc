@@ -144,6 +144,18 @@ void ExpectHost(SSL* ssl, const std::string& host) {
   X509_VERIFY_PARAM_set1_host(wanted, host.c_str(), host.size());
 }
 
+// Sets `asked` when the server asks for a certificate; none is given.
+void NoteQuestion(SSL* ssl, bool* asked) {
+  SSL_set_app_data(ssl, asked);
+  SSL_set_cert_cb(
+      ssl,
+      [](SSL* self, void*) {
+        *static_cast<bool*>(SSL_get_app_data(self)) = true;
+        return 1;
+      },
+      nullptr);
+}
+
 }  // namespace
 
 std::string DiagnoseTls(const ServerAddress& address, const std::string& roots_file) {
@@ -156,6 +168,8 @@ std::string DiagnoseTls(const ServerAddress& address, const std::string& roots_f
   constexpr unsigned char kHttp2[] = {2, 'h', '2'};  // what gRPC speaks
   SSL_set_alpn_protos(ssl.get(), kHttp2, sizeof kHttp2);
   if (with_tls && address.socket_path.empty()) ExpectHost(ssl.get(), address.host);
+  bool asked_for_certificate = false;
+  NoteQuestion(ssl.get(), &asked_for_certificate);
   // OpenSSL shakes hands with whoever signed; SSL_get_verify_result says whether it may be trusted.
   const bool shaken = Shake(ssl.get(), socket);
   const int reason = ERR_GET_REASON(ERR_peek_last_error());
@@ -170,7 +184,10 @@ std::string DiagnoseTls(const ServerAddress& address, const std::string& roots_f
            "trusted";
   }
   const long refused = SSL_get_verify_result(ssl.get());
-  return shaken && refused != X509_V_OK ? WhyRefused(refused, address, roots_file) : "";
+  if (shaken && refused != X509_V_OK) return WhyRefused(refused, address, roots_file);
+  if (!asked_for_certificate) return "";
+  return "it asks for a client's certificate, and none was given, or one that it does not accept "
+         "(of another authority, or expired)";
 }
 
 }  // namespace clearway

@@ -95,7 +95,7 @@ class ReconnectTest : public testing::Test {
   // Everything that counts someone who stays connected.
   std::uint64_t Streams() {
     const ServerCore& core = server_->core();
-    return core.follow_streams + core.push_streams + core.watch_streams;
+    return core.follow_streams.size() + core.push_streams.size() + core.watch_streams.size();
   }
 
   std::optional<TestServer> server_;

@@ -98,7 +98,8 @@ TEST_F(PlannerTest, EndsWhenAPlanIsGoodEnough) {
   ASSERT_TRUE(outcome.ok()) << outcome.status();
   EXPECT_EQ(outcome->status, PlanStatus::kFound);
   EXPECT_EQ(plans, 1);
-  while (server_.core().plans > 0) std::this_thread::sleep_for(milliseconds(1));  // it stops too
+  while (server_.core().plans.size() > 0)
+    std::this_thread::sleep_for(milliseconds(1));  // it stops too
 }
 
 TEST_F(PlannerTest, SaysWhatBlocksTheGoal) {
@@ -167,7 +168,7 @@ TEST_F(PlannerTest, AServerThatDrainsDoesNotSayThatThereIsNoPlan) {
   wall.shape = Box{{0.2, 12, 2}};
   ASSERT_TRUE(SceneClient(connection_).AddObjects(std::vector{wall}).ok());
   std::thread drain([&] {
-    while (server_.core().plans == 0) std::this_thread::sleep_for(milliseconds(1));
+    while (server_.core().plans.size() == 0) std::this_thread::sleep_for(milliseconds(1));
     server_.core().draining = true;
   });
   const auto outcome = planner_->Plan(task, seconds(10), [](const Plan&) { return true; });
@@ -193,7 +194,7 @@ TEST_F(PlannerTest, NoMorePlansAtOnceThanTheLimit) {
   });
   EXPECT_TRUE(outer.ok()) << outer.status();
   EXPECT_EQ(inner.code(), absl::StatusCode::kResourceExhausted) << inner;
-  while (server.core().plans > 0) std::this_thread::sleep_for(milliseconds(1));
+  while (server.core().plans.size() > 0) std::this_thread::sleep_for(milliseconds(1));
   const auto too_long = (*planner)->Plan(AcrossTheServersPlace(), seconds(31), good);
   EXPECT_EQ(too_long.status().code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(too_long.status().message().rfind("budget_s", 0), 0u);

@@ -228,8 +228,8 @@ TEST_F(QueriesTest, ARobotThatWasForgottenIsRegisteredAgain) {
   const auto checker = RemoteChecker::Pin(connection_, Robot::SingleShape("ball", Sphere{0.3}));
   ASSERT_TRUE(checker.ok()) << checker.status();
   for (int i = 0; i < 100; ++i) {
-    ASSERT_TRUE(
-        server_.core().robots.Register(Robot::SingleShape("ball", Sphere{1 + 0.01 * i})).ok());
+    const Robot other = Robot::SingleShape("ball", Sphere{1 + 0.01 * i});
+    ASSERT_TRUE(server_.core().robots.Register(other, "client " + std::to_string(i)).ok());
   }
   EXPECT_LE(server_.core().robots.size(), server_.core().config.limits.max_robots);
   EXPECT_TRUE((*checker)->Check({{scene_->stamp}, {Pose{}}}, {}).ok());

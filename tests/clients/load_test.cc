@@ -28,7 +28,7 @@ TEST(Load, Empty) {
 
 TEST(Load, CountsEveryCallButTheFirst) {
   std::atomic<int> calls = 0;
-  const Caller caller = [&] {
+  const LoadCall caller = [&] {
     ++calls;
     return absl::OkStatus();
   };
@@ -48,8 +48,8 @@ TEST(Load, LatenciesAreThoseOfCalls) {
 }
 
 TEST(Load, EndsWithTheFirstError) {
-  const Caller fine = [] { return absl::OkStatus(); };
-  const Caller bad = [n = 0]() mutable {
+  const LoadCall fine = [] { return absl::OkStatus(); };
+  const LoadCall bad = [n = 0]() mutable {
     return ++n < 3 ? absl::OkStatus() : absl::NotFoundError("gone");
   };
   const auto report = RunLoad({fine, bad}, std::chrono::hours(1));

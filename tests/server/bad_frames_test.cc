@@ -236,11 +236,11 @@ TEST_F(BadInput, ClientsThatDieMidStreamLeaveNothingBehind) {
     push->Finish();
   }
   const ServerCore& core = server_.core();
-  for (int i = 0; i < 500 && core.follow_streams + core.push_streams > 0; ++i) {
+  for (int i = 0; i < 500 && core.follow_streams.size() + core.push_streams.size() > 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  EXPECT_EQ(core.follow_streams, 0u);
-  EXPECT_EQ(core.push_streams, 0u);
+  EXPECT_EQ(core.follow_streams.size(), 0u);
+  EXPECT_EQ(core.push_streams.size(), 0u);
 }
 
 }  // namespace

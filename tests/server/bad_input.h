@@ -42,6 +42,7 @@ inline ServerConfig TightConfig() {
   ServerConfig config = testing_support::SmallConfig();
   config.limits.max_points_per_frame = 100;
   config.limits.max_ray_voxels = 20'000;
+  config.limits.max_peer_share = 1;
   config.limits.max_objects = 4;
   config.limits.max_blocks = 100;
   config.limits.max_states_per_batch = 10;

@@ -138,10 +138,10 @@ TEST_F(BadIntervals, TheSearchEndsWhenTheClientHasGone) {
   const grpc::Status status = check_->FindDepartureIntervals(&context, request, &response);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (server_.core().calls > 0 && std::chrono::steady_clock::now() < give_up) {
+  while (server_.core().open_calls.size() > 0 && std::chrono::steady_clock::now() < give_up) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  EXPECT_EQ(server_.core().calls, 0u);
+  EXPECT_EQ(server_.core().open_calls.size(), 0u);
 }
 
 }  // namespace

@@ -323,7 +323,7 @@ TEST_F(LeasesTest, Empty) {
 }
 
 TEST_F(LeasesTest, HoldsAVersionUntilItsTimeIsOver) {
-  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10));
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
   ASSERT_TRUE(lease.ok());
   now_ += std::chrono::seconds(9);
   EXPECT_EQ((*dut_.Find(lease->id))->version, 5u);
@@ -335,7 +335,7 @@ TEST_F(LeasesTest, HoldsAVersionUntilItsTimeIsOver) {
 }
 
 TEST_F(LeasesTest, RenewalCountsFromNow) {
-  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10));
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
   now_ += std::chrono::seconds(9);
   ASSERT_TRUE(dut_.Renew(lease->id, std::chrono::seconds(10)).ok());
   now_ += std::chrono::seconds(9);
@@ -343,21 +343,22 @@ TEST_F(LeasesTest, RenewalCountsFromNow) {
 }
 
 TEST_F(LeasesTest, IsGrantedAtMostTheLongestTime) {
-  EXPECT_EQ(dut_.Acquire(Scene(), std::chrono::hours(1))->ttl, std::chrono::seconds(60));
+  EXPECT_EQ(dut_.Acquire(Scene(), std::chrono::hours(1), "planner")->ttl, std::chrono::seconds(60));
 }
 
 TEST_F(LeasesTest, RefusesMoreThanAllowedUntilOneEnds) {
-  const auto first = dut_.Acquire(Scene(), std::chrono::seconds(10));
-  ASSERT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10)).ok());
-  EXPECT_TRUE(absl::IsResourceExhausted(dut_.Acquire(Scene(), std::chrono::seconds(10)).status()));
+  const auto first = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
+  ASSERT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(
+      dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").status()));
   dut_.Release(first->id);
-  EXPECT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10)).ok());
+  EXPECT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
 }
 
 TEST_F(LeasesTest, TheVersionIsFreedWithTheLease) {
   ScenePtr scene = Scene();
   const std::weak_ptr<const SceneSnapshot> watch = scene;
-  const auto lease = dut_.Acquire(std::move(scene), std::chrono::seconds(10));
+  const auto lease = dut_.Acquire(std::move(scene), std::chrono::seconds(10), "planner");
   EXPECT_FALSE(watch.expired());
   dut_.Release(lease->id);
   EXPECT_TRUE(watch.expired());

@@ -31,7 +31,7 @@ TEST_F(HeldScenes, Empty) {
 }
 
 TEST_F(HeldScenes, EndsWithItsTimeToLive) {
-  const auto lease = dut_.Acquire(std::make_shared<SceneSnapshot>(), seconds(5));
+  const auto lease = dut_.Acquire(std::make_shared<SceneSnapshot>(), seconds(5), "planner");
   ASSERT_TRUE(lease.ok());
   now_ += seconds(4);
   EXPECT_TRUE(dut_.Find(lease->id).ok());
@@ -44,15 +44,30 @@ TEST_F(HeldScenes, EndsWithItsTimeToLive) {
 }
 
 TEST_F(HeldScenes, NobodyWaitsWhileAScenesMemoryIsFreed) {
-  const auto lease = dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5));
+  const auto lease = dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5), "planner");
   ASSERT_TRUE(lease.ok());
   dut_.Release(lease->id);
   EXPECT_TRUE(freed_unlocked_);
   freed_unlocked_ = false;
-  ASSERT_TRUE(dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5)).ok());
+  ASSERT_TRUE(dut_.Acquire(SceneThatNeedsTheLeases(), seconds(5), "planner").ok());
   now_ += seconds(6);
   EXPECT_EQ(dut_.size(), 0u);
   EXPECT_TRUE(freed_unlocked_);
+}
+
+TEST(LeasesOfPeers, NoneKeepsTheOthersOut) {
+  Leases dut({.max_leases = 3, .max_of_peer = 2});
+  const auto acquire = [&](const std::string& peer) {
+    return dut.Acquire(std::make_shared<SceneSnapshot>(), seconds(50), peer);
+  };
+  ASSERT_TRUE(acquire("a").ok());
+  const auto second = acquire("a");
+  ASSERT_TRUE(second.ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(acquire("a").status()));
+  EXPECT_TRUE(acquire("b").ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(acquire("c").status()));
+  dut.Release(second->id);
+  EXPECT_TRUE(acquire("c").ok());
 }
 
 }  // namespace

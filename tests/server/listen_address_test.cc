@@ -1,5 +1,3 @@
-#include "server/listen_address.h"
-
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "server/listeners.h"
 #include "support/temporary_folder.h"
 
 namespace clearway {
@@ -27,9 +26,9 @@ std::string Refusal(const std::string& text) {
 }
 
 absl::Status Check(const std::string& text) {
-  const auto address = ParseListenAddress(text);
+  auto address = ParseListenAddress(text);
   EXPECT_TRUE(address.ok()) << address.status();
-  const absl::Status status = address.ok() ? CheckCanListen(*address) : address.status();
+  const absl::Status status = address.ok() ? Listen(*address, {}).status() : address.status();
   EXPECT_TRUE(status.ok() || std::string(status.message()).starts_with("listen: ")) << status;
   return status;
 }

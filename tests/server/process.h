@@ -27,6 +27,7 @@ class Process {
   void Signal(int signal) const;
   // How many of its threads have each niceness.
   std::map<int, int> Nicenesses() const;
+  pid_t id() const { return id_; }
   // The exit code; -1 if a signal ended it.
   int Wait();
 

@@ -46,9 +46,9 @@ TEST_F(Stalls, AStreamWhoseClientDoesNotReadEndsAndSaysWhy) {
   const auto stream = stub->FollowScene(&context, {});
   v1::FollowSceneResponse response;
   ASSERT_TRUE(stream->Read(&response));
-  EXPECT_EQ(server_.core().follow_streams, 1u);
+  EXPECT_EQ(server_.core().follow_streams.size(), 1u);
   PushMuch();
-  EXPECT_TRUE(Eventually([&] { return server_.core().follow_streams == 0; }));
+  EXPECT_TRUE(Eventually([&] { return server_.core().follow_streams.size() == 0; }));
   while (stream->Read(&response)) {
   }
   const grpc::Status status = stream->Finish();
@@ -73,7 +73,7 @@ TEST_F(Stalls, AMirrorThatStalledFollowsAgain) {
   ASSERT_TRUE(mirror.ok()) << mirror.status();
   relay.Freeze();
   PushMuch();
-  ASSERT_TRUE(Eventually([&] { return server_.core().follow_streams == 0; }));
+  ASSERT_TRUE(Eventually([&] { return server_.core().follow_streams.size() == 0; }));
   relay.Thaw();
   ASSERT_TRUE(Eventually([&] {
     return (*mirror)->Latest()->version == server_.Newest()->version &&

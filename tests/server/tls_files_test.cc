@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +19,7 @@ using testing::HasSubstr;
 class TlsFilesTest : public testing::Test {
  protected:
   void SetUp() override {
+    umask(0077);  // keys that others can read are refused
     if (!Run("openssl version")) GTEST_SKIP() << "the openssl program is missing";
     ASSERT_TRUE(Make("ours", "-days 2"));
     ASSERT_TRUE(Make("other", "-days 2"));
@@ -118,12 +120,26 @@ TEST_F(TlsFilesTest, AKeyTooShortForTls) {
   Refuses("short.cert", "short.key", "tls_cert", "key too small");
 }
 
-TEST_F(TlsFilesTest, AnExpiredCertificateIsAWarning) {
+TEST_F(TlsFilesTest, AKeyThatOthersCanRead) {
+  ASSERT_EQ(chmod(Path("ours.key").c_str(), 0604), 0);
+  Refuses("ours.cert", "ours.key", "tls_key", "others can read it");
+}
+
+TEST_F(TlsFilesTest, AnExpiredCertificate) {
   ASSERT_TRUE(Run("openssl x509 -in " + Path("ours.cert") + " -signkey " + Path("ours.key") +
                   " -days -1 -out " + Path("old.cert")));
-  const auto dut = ReadTlsFiles(Path("old.cert"), Path("ours.key"));
+  Refuses("old.cert", "ours.key", "tls_cert", "has expired");
+  const auto dut = ReadTlsFiles(Path("ours.cert"), Path("ours.key"), Path("old.cert"));
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut.status())) << dut.status();
+}
+
+TEST_F(TlsFilesTest, AuthoritiesOfClients) {
+  const auto dut = ReadTlsFiles(Path("ours.cert"), Path("ours.key"), Path("other.cert"));
   ASSERT_TRUE(dut.ok()) << dut.status();
-  EXPECT_THAT(dut->warning, HasSubstr("has expired"));
+  EXPECT_EQ(dut->client_ca, Text("other.cert"));
+  const absl::Status status =
+      ReadTlsFiles(Path("ours.cert"), Path("ours.key"), Path("other.key")).status();
+  EXPECT_THAT(std::string(status.message()), HasSubstr("tls_client_ca: "));
 }
 
 }  // namespace

@@ -228,6 +228,7 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   for (std::uint64_t* limit : {&l.max_message_bytes,
                                &l.max_points_per_frame,
                                &l.max_ray_voxels,
+                               &l.max_connections,
                                &l.max_blocks,
                                &l.max_objects,
                                &l.max_states_per_batch,
@@ -254,6 +255,8 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
   l.max_version_wait_s = 3.5;
   l.max_planning_s = 4.5;
   l.max_stall_s = 5.5;
+  l.max_idle_s = 6.5;
+  l.max_peer_share = 0.25;
   v1::GetServerInfoResponse proto;
   Write(info, &proto);
   const auto dut = ReadServerInfo(proto);

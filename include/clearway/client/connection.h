@@ -26,6 +26,14 @@ struct ConnectionOptions {
   // TLS with these root certificates (a PEM file); empty: plain text, for loopback and Unix
   // sockets.
   std::string tls_root_certificates_file = {};
+  // With TLS: the client's certificate chain and private key, PEM files both, for servers that ask
+  // for one (tls_client_ca).
+  std::string tls_certificate_file = {}, tls_key_file = {};
+  // A file that holds one token, for servers that ask for one (clearway token add). It is read when
+  // the connection opens, and must be its owner's secret (ReadSecretFile). Without TLS it is only
+  // sent to this machine, unless `insecure`.
+  std::string token_file = {};
+  bool insecure = false;
 };
 
 // A channel to one server, shared by everything that talks to it. Any thread may use it; everything
@@ -35,7 +43,8 @@ class Connection {
   // `address`: "host:port", "[IPv6]:port", "unix:/path" or "unix:path"; gRPC's prefixes ipv4:,
   // ipv6: and dns: may stand before a host. Connects and reads the server's information.
   // INVALID_ARGUMENT for what is no address, UNAVAILABLE if nobody answers within the deadline, or
-  // if TLS is to blame (ErrorDetails::reason is TLS), saying why.
+  // if TLS is to blame (ErrorDetails::reason is TLS), saying why; UNAUTHENTICATED for a token that
+  // is missing or wrong. Errors of files begin with the option's name.
   static absl::StatusOr<std::shared_ptr<Connection>> Open(const std::string& address,
                                                           const ConnectionOptions& options = {});
   ~Connection();

@@ -33,11 +33,15 @@ struct ServerLimits {
   double max_version_wait_s = 5;  // below the deadline of clients, which ask for 10 s
   std::uint64_t max_prior_bytes = 1 << 30;
   std::uint64_t max_boxes = 10'000;  // keep-out boxes, declared-free boxes, contacts, ignored ids
-  std::uint64_t max_calls = 512;     // at once
-  std::uint64_t max_plans = 4;       // at once
+  std::uint64_t max_connections = 1024;
+  std::uint64_t max_calls = 512;  // at once
+  std::uint64_t max_plans = 8;    // at once
   double max_planning_s = 60;
   std::uint64_t max_watch_streams = 64;
   double max_stall_s = 10;  // that a stream's client may read nothing of what is written to it
+  double max_idle_s = 600;  // that a stream's client may write nothing
+  double max_peer_share =
+      0.5;  // of calls, streams, plans, robots and leases, that one client may have
   double max_stamp_jump_s = 3600;  // of a frame's stamp, ahead of the scene's newest
   double late_window_s = 0.2;      // for frames older than those of other sensors
   bool operator==(const ServerLimits&) const = default;
