@@ -180,10 +180,10 @@ absl::StatusOr<MeshContent> CheckMeshContent(const std::string& extension, std::
   if (extension == ".dae") return CheckDaeContent(bytes);
   if (extension == ".gltf") return CheckGltfContent(bytes);
   if (extension == ".glb") return CheckGlbContent(bytes);
-  if (extension != ".off" && extension != ".ply") {
-    return absl::InvalidArgumentError(absl::StrCat(extension, " files are not read"));
+  if (extension != ".off") {
+    return absl::InvalidArgumentError(absl::StrCat(extension, " files are not checked"));
   }
-  const auto faces = extension == ".off" ? CheckOffContent(bytes) : CheckPlyContent(bytes);
+  const auto faces = CheckOffContent(bytes);
   if (!faces.ok()) return faces.status();
   return MeshContent{.faces = *faces, .parts = {}, .buffers = {}, .reduced = {}};
 }
