@@ -11,7 +11,7 @@
 namespace clearway {
 
 struct CallLimits {
-  Duration max_time = std::chrono::seconds(20);    // by the wall clock; above 0
+  Duration max_time = std::chrono::seconds(60);    // by the wall clock; above 0
   std::uint64_t max_memory_bytes = 1'000'000'000;  // that the call allocates
   std::uint64_t max_result_bytes = 1'000'000'000;  // that it returns
 };
@@ -22,7 +22,7 @@ struct CallLimits {
 // not take a lock that another thread may hold (that of the allocator excepted) and must not start
 // threads. `name` begins messages.
 //
-// The errors of `function`; DEADLINE_EXCEEDED ("assimp took more than 20 s"); RESOURCE_EXHAUSTED
+// The errors of `function`; DEADLINE_EXCEEDED ("assimp took more than 60 s"); RESOURCE_EXHAUSTED
 // for too much memory or too large a result; ABORTED if it crashed ("assimp crashed (signal 6)") or
 // threw; UNAVAILABLE if no process can be started. Any thread.
 absl::StatusOr<std::string> CallGuarded(

@@ -17,7 +17,7 @@ struct MeshFileOptions {
   bool collada_y_up = false;
   std::uint64_t max_bytes = 256'000'000;
   std::size_t max_triangles = 10'000'000;
-  Duration max_time = std::chrono::seconds(20);  // of an import by assimp, by the wall clock
+  Duration max_time = std::chrono::seconds(60);  // of an import by assimp, by the wall clock
 };
 
 // Reads a .ply file itself, and a .stl, .obj, .off, .dae, .gltf or .glb file by assimp, in a child
