@@ -25,6 +25,11 @@ class Client:
         return self.channel.unary_unary(f"/clearway.v1.{method}", request_serializer=bytes,
                                         response_deserializer=bytes)(octets, timeout=timeout_s)
 
+    def begin(self, method, octets, timeout_s=300):
+        """A call in the background."""
+        return self.channel.unary_unary(f"/clearway.v1.{method}", request_serializer=bytes,
+                                        response_deserializer=bytes).future(octets, timeout_s)
+
     def code(self, method, request, timeout_s=60):
         try:
             self.call(method, request, timeout_s)
