@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "map/block_memory.h"
+#include "map/node_memory.h"
 
 namespace clearway {
 
@@ -32,9 +32,18 @@ std::size_t HashOf(BlockKey key) {
 
 void* BlockTree::Leaf::operator new(std::size_t) {
   static_assert(sizeof(Leaf) <= kBlockMemoryBytes);
-  return TakeBlockMemory();
+  return TakeNodeMemory<kBlockMemoryBytes>();
 }
-void BlockTree::Leaf::operator delete(void* memory, std::size_t) { GiveBackBlockMemory(memory); }
+void BlockTree::Leaf::operator delete(void* memory) {
+  GiveBackNodeMemory<kBlockMemoryBytes>(memory);
+}
+void* BlockTree::TakeBranchMemory() {
+  static_assert(std::max({sizeof(Lower), sizeof(Middle), sizeof(Upper)}) <= kBranchMemoryBytes);
+  return TakeNodeMemory<kBranchMemoryBytes>();
+}
+void BlockTree::GiveBackBranchMemory(void* memory) {
+  GiveBackNodeMemory<kBranchMemoryBytes>(memory);
+}
 
 void BlockTree::IndexRoots() {
   root_index_.assign(std::bit_ceil(2 * roots_.size() + 1), -1);

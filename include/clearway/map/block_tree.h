@@ -86,13 +86,18 @@ class BlockTree {
   static constexpr int kFan = 64;
   static constexpr int kRootBits = 3 * kFanBits;  // a root is 64 blocks wide
 
+  // Nodes take their memory from a store of their own.
   struct Leaf : boost::intrusive_ref_counter<Leaf> {
     static void* operator new(std::size_t bytes);
-    static void operator delete(void* memory, std::size_t bytes);
+    static void operator delete(void* memory);
     alignas(64) VoxelBlock block;  // its masks: a cache line each
   };
+  static void* TakeBranchMemory();
+  static void GiveBackBranchMemory(void* memory);
   template <class Child>
   struct Branch : boost::intrusive_ref_counter<Branch<Child>> {
+    static void* operator new(std::size_t) { return TakeBranchMemory(); }
+    static void operator delete(void* memory) { GiveBackBranchMemory(memory); }
     std::uint64_t used = 0;      // the children there are
     std::uint64_t occupied = 0;  // those with an occupied voxel
     std::array<boost::intrusive_ptr<Child>, kFan> children;

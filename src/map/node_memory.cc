@@ -1,4 +1,4 @@
-#include "map/block_memory.h"
+#include "map/node_memory.h"
 
 #include <sys/mman.h>
 
@@ -72,17 +72,17 @@ class Store {
   Piece* first_ = nullptr;
 };
 
-// One huge page at a time, if the system has such: blocks are read and written all over a map, and
+// One huge page at a time, if the system has such: nodes are read and written all over a map, and
 // small pages would cost a walk through the page table for each of them.
-void Buy(Store& store) {
-  constexpr std::size_t kBytes = std::size_t{1} << 21;
-  constexpr std::align_val_t kAlignment{kBytes};
-  auto* memory = static_cast<std::byte*>(::operator new(kBytes, kAlignment));
-  madvise(memory, kBytes, MADV_HUGEPAGE);  // else it works too
+void Buy(Store& store, std::size_t node_bytes) {
+  constexpr std::size_t kPageBytes = std::size_t{1} << 21;
+  constexpr std::align_val_t kAlignment{kPageBytes};
+  auto* memory = static_cast<std::byte*>(::operator new(kPageBytes, kAlignment));
+  madvise(memory, kPageBytes, MADV_HUGEPAGE);  // else it works too
   Bundle bundle;
-  for (std::size_t i = 0; i < kBytes / kBlockMemoryBytes; ++i) {
+  for (std::size_t i = 0; i < kPageBytes / node_bytes; ++i) {
     if (bundle.size == kBundle) store.Give(std::exchange(bundle, {}));
-    bundle.Add(new (memory + i * kBlockMemoryBytes) Piece);
+    bundle.Add(new (memory + i * node_bytes) Piece);
   }
   store.Give(bundle);
 }
@@ -92,12 +92,12 @@ void Buy(Store& store) {
 // each time (J. Bonwick, J. Adams: Magazines and Vmem, 2001, section 3.1).
 class alignas(64) Shelf {
  public:
-  void* Take(Store& store) {
+  void* Take(Store& store, std::size_t node_bytes) {
     std::lock_guard lock(mutex_);
     if (used_.size == 0) std::swap(used_, other_);
     while (used_.size == 0) {
       used_ = store.Take();
-      if (used_.size == 0) Buy(store);
+      if (used_.size == 0) Buy(store, node_bytes);
     }
     return used_.Take();
   }
@@ -113,33 +113,45 @@ class alignas(64) Shelf {
   Bundle used_, other_;
 };
 
+std::size_t ThreadNumber() {
+  static std::atomic<std::size_t> threads = 0;
+  thread_local const std::size_t number = threads++;
+  return number;
+}
+
+// For nodes of one size.
+template <std::size_t kBytes>
 struct Shop {
   Store store;
   std::array<Shelf, 16> shelves;
+
+  // Never destroyed: maps may outlive every static object.
+  static Shop& The() {
+    static Shop& shop = *new Shop;
+    return shop;
+  }
+  Shelf& OwnShelf() { return shelves[ThreadNumber() % shelves.size()]; }
 };
-
-// Never destroyed: maps may outlive every static object.
-Shop& TheShop() {
-  static Shop& shop = *new Shop;
-  return shop;
-}
-
-Shelf& OwnShelf() {
-  static std::atomic<std::size_t> threads = 0;
-  thread_local const std::size_t number = threads++;
-  return TheShop().shelves[number % TheShop().shelves.size()];
-}
 
 }  // namespace
 
-void* TakeBlockMemory() {
-  if constexpr (!kKept) return ::operator new(kBlockMemoryBytes, kCacheLine);
-  return OwnShelf().Take(TheShop().store);
+template <std::size_t kBytes>
+void* TakeNodeMemory() {
+  if constexpr (!kKept) return ::operator new(kBytes, kCacheLine);
+  auto& shop = Shop<kBytes>::The();
+  return shop.OwnShelf().Take(shop.store, kBytes);
 }
 
-void GiveBackBlockMemory(void* memory) {
+template <std::size_t kBytes>
+void GiveBackNodeMemory(void* memory) {
   if constexpr (!kKept) return ::operator delete(memory, kCacheLine);
-  OwnShelf().Give(memory, TheShop().store);
+  auto& shop = Shop<kBytes>::The();
+  shop.OwnShelf().Give(memory, shop.store);
 }
+
+template void* TakeNodeMemory<kBlockMemoryBytes>();
+template void GiveBackNodeMemory<kBlockMemoryBytes>(void*);
+template void* TakeNodeMemory<kBranchMemoryBytes>();
+template void GiveBackNodeMemory<kBranchMemoryBytes>(void*);
 
 }  // namespace clearway
