@@ -11,6 +11,7 @@
 namespace clearway::bench {
 namespace {
 
+constexpr double kResolution_m = 0.1, kRange_m = 50;
 constexpr double kPeriod_s = 0.1;  // between frames
 constexpr double kApart_m = 5;     // of objects in a crowd
 
@@ -20,8 +21,8 @@ int SideOf(int count) { return static_cast<int>(std::ceil(std::sqrt(count))); }
 ScenePtr Integrate(const std::vector<Frame>& scans) {
   ThreadPool pool(1);
   SceneParams params;
-  params.resolution_m = 0.1;
-  params.rays = {50, false};
+  params.resolution_m = kResolution_m;
+  params.rays = {.max_range_m = kRange_m, .octomap_ends = true};
   SceneBuilder builder(params, {}, pool);
   for (const Frame& scan : scans) {
     if (!builder.Apply(scan).ok()) std::abort();
@@ -29,12 +30,25 @@ ScenePtr Integrate(const std::vector<Frame>& scans) {
   return builder.Publish();
 }
 
-std::shared_ptr<octomap::OcTree> ToOctomap(const VoxelMap& map) {
+using TreePtr = std::shared_ptr<octomap::OcTree>;
+
+TreePtr InsertAll(const std::vector<Frame>& scans) {
+  auto tree = std::make_shared<octomap::OcTree>(kResolution_m);
+  for (const Frame& scan : scans) {
+    octomap::Pointcloud cloud;
+    for (const Eigen::Vector3f& p : PointsInWorld(scan)) cloud.push_back(p.x(), p.y(), p.z());
+    const Eigen::Vector3f origin = scan.T_W_S.translation.cast<float>();
+    tree->insertPointCloud(cloud, {origin.x(), origin.y(), origin.z()}, kRange_m);
+  }
+  tree->prune();
+  return tree;
+}
+
+TreePtr ReadFrom(const VoxelMap& map) {
   const auto bytes = SerializeOctomap(map, OctomapFormat::kFull);
   if (!bytes.ok()) std::abort();
   std::istringstream stream(*bytes);
-  std::shared_ptr<octomap::OcTree> tree(
-      dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
+  TreePtr tree(dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
   if (tree == nullptr) std::abort();
   tree->prune();
   return tree;
@@ -96,7 +110,8 @@ DriveMap MakeDriveMap(std::size_t scans) {
   const std::vector<Frame> frames = WholeScans(scans);
   DriveMap drive;
   drive.scene = Integrate(frames);
-  drive.tree = ToOctomap(drive.scene->static_map_W);
+  drive.tree = InsertAll(frames);
+  drive.read_tree = ReadFrom(drive.scene->static_map_W);
   const Eigen::Vector3d center_W = frames.front().T_W_S.translation;
   drive.box_W = drive.scene->static_map_W.ObservedBox();
   drive.box_W.min = drive.box_W.min.cwiseMax(center_W - Eigen::Vector3d(20, 20, 2.5));

@@ -45,8 +45,8 @@ VoxelState StateIn(const octomap::OcTree& tree, const Eigen::Vector3d& p) {
   return tree.isNodeOccupied(node) ? VoxelState::kOccupied : VoxelState::kFree;
 }
 
-LookUp ByOctomap(const DriveMap& drive) {
-  return [tree = drive.tree](const auto& points_W, const auto& states) {
+LookUp ByOctomap(const std::shared_ptr<const octomap::OcTree>& tree) {
+  return [tree](const auto& points_W, const auto& states) {
     for (std::size_t i = 0; i < points_W.size(); ++i) states[i] = StateIn(*tree, points_W[i]);
   };
 }
@@ -61,7 +61,7 @@ LookUp ByClearway(const DriveMap& drive) {
 void ExpectOctomaps(benchmark::State& state, const DriveMap& drive, const Points& points_W,
                     const std::vector<VoxelState>& states) {
   std::vector<VoxelState> expected(points_W.size());
-  ByOctomap(drive)(points_W, expected);
+  ByOctomap(drive.tree)(points_W, expected);
   if (states != expected) state.SkipWithError("OctoMap disagrees");
 }
 
@@ -126,9 +126,12 @@ void Register(const Effort& effort) {
   const auto drive = std::make_shared<DriveMap>(MakeDriveMap(effort.quick ? 5 : 20));
   const Aabb all_W = drive->scene->static_map_W.ObservedBox();
   const Points random = RandomPoints(all_W, kPoints);
+  const std::vector<std::pair<std::string, LookUp>> who_looks_up = {
+      {"octomap_", ByOctomap(drive->tree)},
+      {"octomap_read_", ByOctomap(drive->read_tree)},
+      {"clearway_", ByClearway(*drive)}};
   const auto add = [&](const std::string& name, auto run, const Points& points) {
-    for (const auto& [who, look_up] :
-         {std::pair{"octomap_", ByOctomap(*drive)}, std::pair{"clearway_", ByClearway(*drive)}}) {
+    for (const auto& [who, look_up] : who_looks_up) {
       auto* const added = AddTurns(effort, who + name, [=, look_up = look_up](auto& state) {
         run(state, *drive, look_up, points);
       });
@@ -155,7 +158,9 @@ int main(int argc, char** argv) {
   return clearway::bench::Main(
       argc, argv, clearway::bench::Register,
       {{"lookup_random_vs_octomap_x", "octomap_random", "clearway_random"},
+       {"lookup_random_read_vs_octomap_x", "octomap_read_random", "clearway_random"},
        {"lookup_coherent_vs_octomap_x", "octomap_coherent", "clearway_coherent"},
+       {"lookup_coherent_read_vs_octomap_x", "octomap_read_coherent", "clearway_coherent"},
        {"lookup_coherent_anywhere_vs_octomap_x", "octomap_coherent_anywhere",
         "clearway_coherent_anywhere"},
        {"lookup_coherent_from_memory_vs_octomap_x", "octomap_coherent_from_memory",
