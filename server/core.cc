@@ -20,7 +20,12 @@ std::string NewInstance() {
   return absl::StrFormat("%08x%08x", random(), random());
 }
 
-Ingestor::Options IngestorOptions(const ServerConfig& config) {
+ServerConfig WithMemoryLimit(ServerConfig config) {
+  if (config.limits.max_memory_bytes == 0) config.limits.max_memory_bytes = DefaultMemoryLimit();
+  return config;
+}
+
+Ingestor::Options IngestorOptions(const ServerConfig& config, const MemoryBudget& memory) {
   Ingestor::Options options;
   options.scene = config.scene;
   options.frames = FrameLimitsOf(config.limits);
@@ -28,6 +33,7 @@ Ingestor::Options IngestorOptions(const ServerConfig& config) {
   options.max_remembered = config.limits.max_remembered_answers;
   options.threads = config.threads > 0 ? config.threads : Processors();
   options.niceness = config.writer_niceness;
+  options.has_room = [&memory] { return memory.Room(); };
   return options;
 }
 
@@ -52,15 +58,17 @@ FrameLimits FrameLimitsOf(const ServerLimits& limits) {
 }
 
 ServerCore::ServerCore(const ServerConfig& server_config)
-    : config(server_config),
+    : config(WithMemoryLimit(server_config)),
       instance(NewInstance()),
+      memory(config.limits.max_memory_bytes),
+      request_memory(config.limits.max_request_memory_bytes),
       versions(config.kept_versions),
       deltas(instance),
       streams(FromSeconds(config.limits.max_stall_s), FromSeconds(config.limits.max_idle_s)),
       computing(Processors(), kTurn),
       leases(LeaseOptions(config)),
       robots(config.limits, config.scene.resolution_m),
-      ingestor(IngestorOptions(config), versions),
+      ingestor(IngestorOptions(config, memory), versions),
       open_calls(config.limits.max_calls, config.limits.max_peer_share,
                  [this](bool room) {
                    if (on_room) on_room(room);

@@ -14,6 +14,7 @@
 #include "server/fair_queue.h"
 #include "server/ingestor.h"
 #include "server/leases.h"
+#include "server/memory_budget.h"
 #include "server/open_calls.h"
 #include "server/quota.h"
 #include "server/robots.h"
@@ -35,6 +36,8 @@ struct ServerCore {
   const ServerConfig config;
   const std::string instance;  // differs for each start
   const std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  MemoryBudget memory;
+  RequestMemory request_memory;
   Versions versions;
   DeltaCache deltas;
   StreamWatch streams;

@@ -64,10 +64,11 @@ absl::Status NoMemory(const char* name) {
                     "NO_MEMORY");
 }
 
-absl::Status CheckSize(const ServerCore& core, const google::protobuf::Message& request) {
+RequestMemory::Share ShareOf(ServerCore& core, const google::protobuf::Message& request) {
   const std::uint64_t limit = core.config.limits.max_message_bytes;
   const std::uint64_t size = request.ByteSizeLong();
-  return size > limit ? LimitError("request", size, limit) : absl::OkStatus();
+  if (size > limit) return RequestMemory::Share(LimitError("request", size, limit));
+  return core.request_memory.Take(size);
 }
 
 void Mark(google::protobuf::Message& message) {

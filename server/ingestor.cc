@@ -4,6 +4,7 @@
 #include <new>
 
 #include "absl/strings/str_cat.h"
+#include "server/memory_use.h"
 #include "spdlog/spdlog.h"
 #include "wire/status.h"
 
@@ -103,12 +104,13 @@ absl::StatusOr<Ingestor::Ticket> Ingestor::PushWhenRoom(PushedFrame pushed, cons
   return PushLocked(lock, std::move(pushed));
 }
 
-absl::StatusOr<Ingestor::Ticket> Ingestor::Apply(Change change, bool forget_answers) {
+absl::StatusOr<Ingestor::Ticket> Ingestor::Apply(Change change, Effect effect) {
   auto job = std::make_unique<Job>();
   job->change = std::move(change);
+  job->effect = effect;
   std::unique_lock lock(mutex_);
   absl::StatusOr<Ticket> ticket = Enqueue(lock, std::move(job));
-  if (!ticket.ok() || !forget_answers) return ticket;
+  if (!ticket.ok() || effect != Effect::kBeginsAnew) return ticket;
   // Now, not when the change is applied: frames that come in between belong to what follows it.
   remembered_.Clear();
   return ticket;
@@ -123,14 +125,28 @@ Ingestor::Answer Ingestor::Wait(const Ticket& ticket, const Gone& gone) {
   return answer;
 }
 
+// Kept versions are the first to go.
+absl::Status Ingestor::MakeRoom() {
+  if (options_.has_room().ok()) return absl::OkStatus();
+  versions_.KeepNewestOnly();
+  return options_.has_room();
+}
+
 Ingestor::Answer Ingestor::Do(Job& job) {
   try {
+    if (job.effect == Effect::kAdds) {
+      if (absl::Status status = MakeRoom(); !status.ok()) return status;
+    }
     if (absl::Status status = job.change(builder_); !status.ok()) return status;
     ScenePtr scene = builder_.Publish();
     job.ack.version = scene->version;
     job.ack.stamp = scene->stamp;
     job.ack.reached = AckLevel::kApplied;
     versions_.Publish(std::move(scene));
+    if (job.effect == Effect::kBeginsAnew) {
+      versions_.KeepNewestOnly();
+      GiveMemoryBack();
+    }
     return job.ack;
   } catch (const std::bad_alloc&) {
     spdlog::error("a change failed: no memory");

@@ -16,6 +16,7 @@
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/scene_builder.h"
 #include "clearway/wire/push_ack.h"
+#include "server/memory_budget.h"
 #include "server/remembered_frames.h"
 #include "server/thread_priority.h"
 #include "server/versions.h"
@@ -38,6 +39,7 @@ struct PushedFrame {
   Frame frame;
   std::uint64_t content_hash = 0;  // of all that was sent: equal for repeats alone
   bool allow_stamp_jump = false;
+  RequestMemory::Share memory{};  // that it takes until it is applied
 
   FrameName name() const { return {frame.sensor_id, frame.sensor_run, frame.sequence}; }
   FrameContent content() const { return {frame.stamp, content_hash}; }
@@ -61,6 +63,9 @@ class Ingestor {
     }
   };
   using Change = std::function<absl::Status(SceneBuilder&)>;
+  // What a change does to the scene. One that adds to it is refused when there is no room. One that
+  // begins it anew lets frames pushed before it be pushed again, and older versions are dropped.
+  enum class Effect { kAdds, kTakesAway, kBeginsAnew };
 
   struct Options {
     SceneParams scene;
@@ -69,6 +74,8 @@ class Ingestor {
     std::size_t max_remembered = 10'000;
     int threads = 1;
     int niceness = 0;  // of the threads that apply frames
+    // RESOURCE_EXHAUSTED if the scene may not grow.
+    std::function<absl::Status()> has_room = [] { return absl::OkStatus(); };
   };
 
   // `versions` must outlive the ingestor. Publishes the empty scene.
@@ -84,9 +91,8 @@ class Ingestor {
   absl::StatusOr<Ticket> Push(PushedFrame pushed);
   // As Push, but waits for room in the queue; CANCELLED once `gone`.
   absl::StatusOr<Ticket> PushWhenRoom(PushedFrame pushed, const Gone& gone);
-  // Queues a change beside the frames; `forget_answers` for one that begins the scene
-  // anew: frames pushed before it may then be pushed again.
-  absl::StatusOr<Ticket> Apply(Change change, bool forget_answers = false);
+  // Queues a change beside the frames.
+  absl::StatusOr<Ticket> Apply(Change change, Effect effect);
   // The answer; CANCELLED once `gone` (the frame is applied all the same).
   static Answer Wait(const Ticket& ticket, const Gone& gone);
 
@@ -101,6 +107,7 @@ class Ingestor {
  private:
   struct Job {
     Change change;
+    Effect effect = Effect::kAdds;
     std::optional<FrameName> frame;  // of a frame
     PushAck ack;                     // filled by `change`, then by the publication
     std::promise<Answer> answer;
@@ -112,6 +119,7 @@ class Ingestor {
   void Count(const FrameName& name, const Answer& answer);
   void MakeThreadsGiveWay();
   void Run();
+  absl::Status MakeRoom();
   Answer Do(Job& job);
 
   const Options options_;

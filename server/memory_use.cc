@@ -7,6 +7,8 @@
 #include <fstream>
 #include <thread>
 
+#include "clearway/map/map_memory.h"
+
 namespace clearway {
 
 MemoryUse CurrentMemoryUse() {
@@ -17,8 +19,14 @@ MemoryUse CurrentMemoryUse() {
     use.resident_bytes = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   }
   const struct mallinfo2 heap = mallinfo2();
-  use.heap_bytes_in_use = heap.uordblks + heap.hblkhd;  // from arenas, and mapped by themselves
+  // From arenas, mapped by themselves, and outside of malloc.
+  use.heap_bytes_in_use = heap.uordblks + heap.hblkhd + CurrentMapMemory().in_use_bytes;
   return use;
+}
+
+void GiveMemoryBack() {
+  TrimMapMemory();
+  malloc_trim(0);
 }
 
 void KeepFewArenas() {

@@ -13,11 +13,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/acceptor.h"
+#include "server/call_interceptor.h"
 #include "server/core.h"
 #include "server/listeners.h"
 #include "server/reflection.h"
 #include "server/services.h"
-#include "server/status_interceptor.h"
 #include "server/tls_identity.h"
 #include "server/transport.h"
 #include "spdlog/spdlog.h"
@@ -33,9 +33,9 @@ constexpr std::chrono::milliseconds kLastAnswers(200);
 constexpr std::chrono::milliseconds kLastBytes(4000), kLeastLastBytes(500), kLastReads(1000);
 using Clock = std::chrono::steady_clock;
 
-// Until no call but open push streams is running; those may stay idle for ever.
+// Until no handler but those of open push streams is running; those may stay idle for ever.
 void WaitForCalls(const ServerCore& core, Clock::time_point end) {
-  while (core.open_calls.size() > core.push_streams.size() && Clock::now() < end) {
+  while (core.open_calls.running() > core.push_streams.size() && Clock::now() < end) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
@@ -115,8 +115,9 @@ void Server::Impl::Register(grpc::ServerBuilder& builder) {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
-  interceptors.push_back(MakeStatusInterceptor());
+  interceptors.push_back(MakeCallInterceptor(core.open_calls));
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  core.open_calls.ExpectEnds();
 }
 
 absl::StatusOr<std::vector<Descriptor>> Server::Impl::Listen() {

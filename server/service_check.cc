@@ -10,24 +10,26 @@ namespace clearway {
 grpc::Status CheckHandlers::RegisterRobot(grpc::ServerContext* context,
                                           const v1::RegisterRobotRequest* request,
                                           v1::RegisterRobotResponse* response) {
-  return Handle(core_, context, "RegisterRobot", *request, [&](const Peer& peer) -> absl::Status {
-    if (!request->has_robot()) return FieldError("robot", "is missing");
-    absl::StatusOr<Robot> robot = ReadRobot("robot", request->robot(), core_.config.limits);
-    if (!robot.ok()) return robot.status();
-    absl::StatusOr<Robots::Registered> registered =
-        core_.robots.Register(*std::move(robot), peer.name);
-    if (!registered.ok()) return registered.status();
-    response->set_robot_id(registered->id);
-    for (const std::string& note : registered->notes) response->add_notes(note);
-    Write(VersionOf(*core_.versions.Newest()), response->mutable_scene());
-    return absl::OkStatus();
-  });
+  return HandleUnary(
+      core_, context, "RegisterRobot", *request, *response, [&](const Peer& peer) -> absl::Status {
+        if (!request->has_robot()) return FieldError("robot", "is missing");
+        if (absl::Status room = core_.memory.Room(); !room.ok()) return room;
+        absl::StatusOr<Robot> robot = ReadRobot("robot", request->robot(), core_.config.limits);
+        if (!robot.ok()) return robot.status();
+        absl::StatusOr<Robots::Registered> registered =
+            core_.robots.Register(*std::move(robot), peer.name);
+        if (!registered.ok()) return registered.status();
+        response->set_robot_id(registered->id);
+        for (const std::string& note : registered->notes) response->add_notes(note);
+        Write(VersionOf(*core_.versions.Newest()), response->mutable_scene());
+        return absl::OkStatus();
+      });
 }
 
 grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
                                         const v1::CheckStatesRequest* request,
                                         v1::CheckStatesResponse* response) {
-  return Handle(core_, context, "CheckStates", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "CheckStates", *request, *response, [&]() -> absl::Status {
     const Gone gone = GoneOf(core_, context);
     absl::StatusOr<std::shared_ptr<const PreparedRobot>> robot =
         core_.robots.Find(request->robot_id());
@@ -55,7 +57,7 @@ grpc::Status CheckHandlers::CheckStates(grpc::ServerContext* context,
 grpc::Status CheckHandlers::CheckMotions(grpc::ServerContext* context,
                                          const v1::CheckMotionsRequest* request,
                                          v1::CheckMotionsResponse* response) {
-  return Handle(core_, context, "CheckMotions", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "CheckMotions", *request, *response, [&]() -> absl::Status {
     const Gone gone = GoneOf(core_, context);
     const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(*request, core_);
     if (!question.ok()) return question.status();

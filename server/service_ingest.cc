@@ -22,7 +22,8 @@ struct Accepted {
 template <class Request, class Push>
 absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&& push) {
   if (core.draining) return DrainingError();
-  if (absl::Status status = CheckSize(core, request); !status.ok()) return status;
+  RequestMemory::Share memory = ShareOf(core, request);
+  if (!memory.status().ok()) return memory.status();
   absl::StatusOr<AckLevel> level = ReadAckLevel("wait_for", request.wait_for());
   if (!level.ok()) return level.status();
   if (*level == AckLevel::kDurable) {
@@ -45,7 +46,7 @@ absl::StatusOr<Accepted> Accept(ServerCore& core, const Request& request, Push&&
     return frame.status();
   }
   absl::StatusOr<Ingestor::Ticket> ticket =
-      push(PushedFrame{*std::move(frame), hash, request.allow_stamp_jump()});
+      push(PushedFrame{*std::move(frame), hash, request.allow_stamp_jump(), std::move(memory)});
   if (!ticket.ok()) return ticket.status();
   return Accepted{*std::move(ticket), *level};
 }
@@ -152,7 +153,7 @@ class AnswerWriter {
 grpc::Status IngestHandlers::PushFrame(grpc::ServerContext* context,
                                        const v1::PushFrameRequest* request,
                                        v1::PushFrameResponse* response) {
-  return Handle(core_, context, "PushFrame", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "PushFrame", *request, *response, [&]() -> absl::Status {
     absl::StatusOr<Accepted> accepted = Accept(core_, *request, [&](PushedFrame pushed) {
       return core_.ingestor.Push(std::move(pushed));
     });

@@ -42,46 +42,48 @@ absl::Status ForMotions(const absl::Status& status) {
 grpc::Status CheckHandlers::FindSafeIntervals(grpc::ServerContext* context,
                                               const v1::FindSafeIntervalsRequest* request,
                                               v1::FindSafeIntervalsResponse* response) {
-  return Handle(core_, context, "FindSafeIntervals", *request, [&]() -> absl::Status {
-    const auto robot = core_.robots.Find(request->robot_id());
-    if (!robot.ok()) return robot.status();
-    const auto question =
-        ReadSafeIntervalQuestion(*request, (*robot)->robot().links.size(), core_.config.limits);
-    if (!question.ok()) return question.status();
-    const MotionOptions waits{question->options.check};
-    if (absl::Status status = Validate(waits, (*robot)->robot()); !status.ok()) {
-      return WithFieldPrefix("options.", status);
-    }
-    const auto find = [&](const StateChecker& checker) {
-      return clearway::FindSafeIntervals(checker, question->T_W_L, question->window,
-                                         question->options);
-    };
-    return Answer(core_, request->selector(), request->robot_id(), waits.check, context, find,
-                  response);
-  });
+  return HandleUnary(
+      core_, context, "FindSafeIntervals", *request, *response, [&]() -> absl::Status {
+        const auto robot = core_.robots.Find(request->robot_id());
+        if (!robot.ok()) return robot.status();
+        const auto question =
+            ReadSafeIntervalQuestion(*request, (*robot)->robot().links.size(), core_.config.limits);
+        if (!question.ok()) return question.status();
+        const MotionOptions waits{question->options.check};
+        if (absl::Status status = Validate(waits, (*robot)->robot()); !status.ok()) {
+          return WithFieldPrefix("options.", status);
+        }
+        const auto find = [&](const StateChecker& checker) {
+          return clearway::FindSafeIntervals(checker, question->T_W_L, question->window,
+                                             question->options);
+        };
+        return Answer(core_, request->selector(), request->robot_id(), waits.check, context, find,
+                      response);
+      });
 }
 
 grpc::Status CheckHandlers::FindDepartureIntervals(grpc::ServerContext* context,
                                                    const v1::FindDepartureIntervalsRequest* request,
                                                    v1::FindDepartureIntervalsResponse* response) {
-  return Handle(core_, context, "FindDepartureIntervals", *request, [&]() -> absl::Status {
-    const v1::CheckMotionsRequest& motions = request->motions();
-    FieldReader read;
-    read.Require(request->has_motions(), "motions", "is missing");
-    read.Require(!motions.has_world_at_ns(), "motions.world_at_ns",
-                 "is not for departures: time passes");
-    if (!read.ok()) return read.status();
-    const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(motions, core_);
-    if (!question.ok()) return ForMotions(question.status());
-    const absl::StatusOr<TimeInterval> window = ReadDepartureWindow(*request);
-    if (!window.ok()) return window.status();
-    const auto find = [&](const StateChecker& checker) {
-      return clearway::FindDepartureIntervals(checker, question->motions, *window,
-                                              {question->options, ReadResolution(*request)});
-    };
-    return Answer(core_, motions.selector(), motions.robot_id(), question->options.check, context,
-                  find, response);
-  });
+  return HandleUnary(
+      core_, context, "FindDepartureIntervals", *request, *response, [&]() -> absl::Status {
+        const v1::CheckMotionsRequest& motions = request->motions();
+        FieldReader read;
+        read.Require(request->has_motions(), "motions", "is missing");
+        read.Require(!motions.has_world_at_ns(), "motions.world_at_ns",
+                     "is not for departures: time passes");
+        if (!read.ok()) return read.status();
+        const absl::StatusOr<MotionQuestion> question = ReadMotionQuestion(motions, core_);
+        if (!question.ok()) return ForMotions(question.status());
+        const absl::StatusOr<TimeInterval> window = ReadDepartureWindow(*request);
+        if (!window.ok()) return window.status();
+        const auto find = [&](const StateChecker& checker) {
+          return clearway::FindDepartureIntervals(checker, question->motions, *window,
+                                                  {question->options, ReadResolution(*request)});
+        };
+        return Answer(core_, motions.selector(), motions.robot_id(), question->options.check,
+                      context, find, response);
+      });
 }
 
 }  // namespace clearway

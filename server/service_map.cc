@@ -55,13 +55,46 @@ absl::StatusOr<std::string> ReadPieces(ServerCore& core, grpc::ServerContext& co
   bool first = true;
   while ((received = ReadNext(reader, request, context, core.streams)) == Received::kMessage) {
     if (std::exchange(first, false)) format = request.format();
-    if (bytes.size() + request.data().size() > max_bytes) {
-      return LimitError("data", bytes.size() + request.data().size(), max_bytes);
+    const std::uint64_t size = bytes.size() + request.data().size();
+    if (size > max_bytes) return LimitError("data", size, max_bytes);
+    if (size > bytes.capacity()) {  // which takes a copy
+      if (absl::Status status = core.memory.Room(size); !status.ok()) return status;
     }
     bytes += request.data();
   }
   if (received == Received::kGarbage) return GarbageError();
   return bytes;
+}
+
+// As many as fill all blocks of the scene.
+std::int64_t MaxVoxelsOf(const ServerLimits& limits) {
+  constexpr std::int64_t kVoxelsPerBlock = kBlockSize * kBlockSize * kBlockSize;
+  const std::int64_t most = OctomapLimits().max_voxels / kVoxelsPerBlock;
+  return kVoxelsPerBlock *
+         std::min<std::int64_t>(most, static_cast<std::int64_t>(limits.max_blocks));
+}
+
+// A small file may hold a large map.
+absl::StatusOr<OctomapFile> Parse(ServerCore& core, const grpc::ServerContext* context,
+                                  const std::string& bytes) {
+  constexpr int kLooks = 64;  // from one look at the memory to the next
+  const ServerLimits& server = core.config.limits;
+  OctomapLimits limits;
+  limits.max_bytes = server.max_prior_bytes;
+  limits.max_voxels = MaxVoxelsOf(server);
+  const Gone must_end = WorkOf(core, context);
+  absl::Status room;
+  int looks = 0;
+  absl::StatusOr<OctomapFile> file =
+      ParseOctomap("data", bytes, core.config.scene.Model(), limits, [&] {
+        if (++looks % kLooks == 0) room = core.memory.Room();
+        return !room.ok() || must_end();
+      });
+  if (!room.ok()) return room;
+  if (!absl::IsResourceExhausted(file.status())) return file;
+  return absl::ResourceExhaustedError(
+      absl::StrCat(std::string(file.status().message()), " (limits.max_prior_bytes is ",
+                   server.max_prior_bytes, ", limits.max_blocks ", server.max_blocks, ")"));
 }
 
 // Boxes without a volume would keep nothing out.
@@ -76,14 +109,6 @@ absl::Status CheckVolumes(const std::vector<Aabb>& boxes_W) {
     }
   }
   return absl::OkStatus();
-}
-
-// As many as fill all blocks of the scene.
-std::int64_t MaxVoxelsOf(const ServerLimits& limits) {
-  constexpr std::int64_t kVoxelsPerBlock = kBlockSize * kBlockSize * kBlockSize;
-  const std::int64_t most = OctomapLimits().max_voxels / kVoxelsPerBlock;
-  return kVoxelsPerBlock *
-         std::min<std::int64_t>(most, static_cast<std::int64_t>(limits.max_blocks));
 }
 
 }  // namespace
@@ -114,23 +139,13 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
                                     grpc::ServerReader<v1::LoadPriorRequest>* reader,
                                     v1::LoadPriorResponse* response) {
   return HandleStream(core_, context, "LoadPrior", [&]() -> absl::Status {
-    const std::uint64_t max_bytes = core_.config.limits.max_prior_bytes;
     int format = v1::MAP_FORMAT_UNSPECIFIED;
     absl::StatusOr<std::string> bytes = ReadPieces(core_, *context, *reader, format);
     if (!bytes.ok()) return bytes.status();
     if (format != v1::MAP_FORMAT_BT && format != v1::MAP_FORMAT_OT) {
       return FieldError("format", "must be BT or OT, in the first message");
     }
-    OctomapLimits limits;
-    limits.max_bytes = max_bytes;
-    limits.max_voxels = MaxVoxelsOf(core_.config.limits);
-    absl::StatusOr<OctomapFile> file =
-        ParseOctomap("data", *bytes, core_.config.scene.Model(), limits, WorkOf(core_, context));
-    if (absl::IsResourceExhausted(file.status())) {
-      return absl::ResourceExhaustedError(
-          absl::StrCat(std::string(file.status().message()), " (limits.max_prior_bytes is ",
-                       max_bytes, ", limits.max_blocks ", core_.config.limits.max_blocks, ")"));
-    }
+    absl::StatusOr<OctomapFile> file = Parse(core_, context, *bytes);
     if (!file.ok()) return file.status();
     const OctomapFormat wanted =
         format == v1::MAP_FORMAT_BT ? OctomapFormat::kBinary : OctomapFormat::kFull;
@@ -138,14 +153,14 @@ grpc::Status MapHandlers::LoadPrior(grpc::ServerContext* context,
     return ApplyChange(
         core_, context,
         [map = std::move(file->map)](SceneBuilder& builder) { return builder.LoadPrior(map); },
-        false, response);
+        Ingestor::Effect::kAdds, response);
   });
 }
 
 grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
                                       const v1::ClearRegionRequest* request,
                                       v1::ClearRegionResponse* response) {
-  return Handle(core_, context, "ClearRegion", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "ClearRegion", *request, *response, [&]() -> absl::Status {
     FieldReader read;
     const Aabb box_W = read.Box("box_world", request->has_box_world(), request->box_world());
     if (!read.ok()) return read.status();
@@ -155,7 +170,8 @@ grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
       *cleared = builder.ClearRegion(box_W);
       return absl::OkStatus();
     };
-    const absl::Status status = ApplyChange(core_, context, change, false, response);
+    const absl::Status status =
+        ApplyChange(core_, context, change, Ingestor::Effect::kTakesAway, response);
     if (!status.ok()) return status;
     const VoxelGrid grid(core_.config.scene.resolution_m);
     response->set_voxels_cleared(static_cast<std::uint64_t>(*cleared));
@@ -167,7 +183,7 @@ grpc::Status MapHandlers::ClearRegion(grpc::ServerContext* context,
 grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
                                      const v1::SetKeepOutRequest* request,
                                      v1::SetKeepOutResponse* response) {
-  return Handle(core_, context, "SetKeepOut", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "SetKeepOut", *request, *response, [&]() -> absl::Status {
     FieldReader read;
     read.AtMost("boxes_world", request->boxes_world_size(), core_.config.limits.max_boxes);
     std::vector<Aabb> boxes_W;
@@ -181,18 +197,18 @@ grpc::Status MapHandlers::SetKeepOut(grpc::ServerContext* context,
       builder.SetKeepOut(boxes_W);
       return absl::OkStatus();
     };
-    return ApplyChange(core_, context, change, false, response);
+    return ApplyChange(core_, context, change, Ingestor::Effect::kTakesAway, response);
   });
 }
 
 grpc::Status MapHandlers::Reset(grpc::ServerContext* context, const v1::ResetRequest* request,
                                 v1::ResetResponse* response) {
-  return Handle(core_, context, "Reset", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "Reset", *request, *response, [&]() -> absl::Status {
     const auto change = [](SceneBuilder& builder) {
       builder.Reset();
       return absl::OkStatus();
     };
-    return ApplyChange(core_, context, change, true, response);
+    return ApplyChange(core_, context, change, Ingestor::Effect::kBeginsAnew, response);
   });
 }
 

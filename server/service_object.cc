@@ -22,7 +22,7 @@ absl::Status KnowingObjects(absl::Status status) {
 grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
                                          const v1::ListObjectsRequest* request,
                                          v1::ListObjectsResponse* response) {
-  return HandleQuery(core_, context, "ListObjects", *request,
+  return HandleQuery(core_, context, "ListObjects", *request, *response,
                      [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
                        const absl::StatusOr<ObjectList> list = DescribeObjects(scene, gone);
                        if (!list.ok()) return list.status();
@@ -37,26 +37,26 @@ grpc::Status ObjectHandlers::ListObjects(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::GetObject(grpc::ServerContext* context,
                                        const v1::GetObjectRequest* request,
                                        v1::GetObjectResponse* response) {
-  return HandleQuery(
-      core_, context, "GetObject", *request, [&](const SceneSnapshot& scene, const Gone&) {
-        const MovingObject* object = scene.FindObject(request->object_id());
-        if (object == nullptr) {
-          return WithReason(
-              absl::NotFoundError(absl::StrCat("object_id: version ", scene.version,
+  return HandleQuery(core_, context, "GetObject", *request, *response,
+                     [&](const SceneSnapshot& scene, const Gone&) {
+                       const MovingObject* object = scene.FindObject(request->object_id());
+                       if (object == nullptr) {
+                         return WithReason(absl::NotFoundError(absl::StrCat(
+                                               "object_id: version ", scene.version,
                                                " has no object ", request->object_id())),
-              "UNKNOWN_OBJECT");
-        }
-        Write(VersionOf(scene), response->mutable_scene());
-        Write(DescribeObject(scene, *object), response->mutable_object());
-        return absl::OkStatus();
-      });
+                                           "UNKNOWN_OBJECT");
+                       }
+                       Write(VersionOf(scene), response->mutable_scene());
+                       Write(DescribeObject(scene, *object), response->mutable_object());
+                       return absl::OkStatus();
+                     });
 }
 
 grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
                                           const v1::PredictPosesRequest* request,
                                           v1::PredictPosesResponse* response) {
   return HandleQuery(
-      core_, context, "PredictPoses", *request,
+      core_, context, "PredictPoses", *request, *response,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         FieldReader read;
         const ServerLimits& limits = core_.config.limits;
@@ -81,21 +81,21 @@ grpc::Status ObjectHandlers::PredictPoses(grpc::ServerContext* context,
 grpc::Status ObjectHandlers::AddObjects(grpc::ServerContext* context,
                                         const v1::AddObjectsRequest* request,
                                         v1::AddObjectsResponse* response) {
-  return Handle(core_, context, "AddObjects", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "AddObjects", *request, *response, [&]() -> absl::Status {
     absl::StatusOr<std::vector<GivenObject>> objects =
         ReadGivenObjects(*request, core_.config.limits);
     if (!objects.ok()) return objects.status();
     const auto change = [objects = *std::move(objects)](SceneBuilder& builder) {
       return builder.AddObjects(objects);
     };
-    return ApplyChange(core_, context, change, false, response);
+    return ApplyChange(core_, context, change, Ingestor::Effect::kAdds, response);
   });
 }
 
 grpc::Status ObjectHandlers::RemoveObjects(grpc::ServerContext* context,
                                            const v1::RemoveObjectsRequest* request,
                                            v1::RemoveObjectsResponse* response) {
-  return Handle(core_, context, "RemoveObjects", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "RemoveObjects", *request, *response, [&]() -> absl::Status {
     FieldReader read;
     read.AtMost("object_ids", request->object_ids_size(), core_.config.limits.max_objects);
     if (!read.ok()) return read.status();
@@ -103,20 +103,20 @@ grpc::Status ObjectHandlers::RemoveObjects(grpc::ServerContext* context,
     const auto change = [ids](SceneBuilder& builder) {
       return KnowingObjects(builder.RemoveObjects(ids));
     };
-    return ApplyChange(core_, context, change, false, response);
+    return ApplyChange(core_, context, change, Ingestor::Effect::kTakesAway, response);
   });
 }
 
 grpc::Status ObjectHandlers::SetFutures(grpc::ServerContext* context,
                                         const v1::SetFuturesRequest* request,
                                         v1::SetFuturesResponse* response) {
-  return Handle(core_, context, "SetFutures", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "SetFutures", *request, *response, [&]() -> absl::Status {
     absl::StatusOr<std::vector<ObjectFuture>> futures = ReadFutures(*request, core_.config.limits);
     if (!futures.ok()) return futures.status();
     const auto change = [futures = *std::move(futures)](SceneBuilder& builder) {
       return KnowingObjects(builder.SetFutures(futures));
     };
-    return ApplyChange(core_, context, change, false, response);
+    return ApplyChange(core_, context, change, Ingestor::Effect::kAdds, response);
   });
 }
 

@@ -32,7 +32,7 @@ grpc::Status OccupancyHandlers::GetPointOccupancy(grpc::ServerContext* context,
                                                   const v1::GetPointOccupancyRequest* request,
                                                   v1::GetPointOccupancyResponse* response) {
   return HandleQuery(
-      core_, context, "GetPointOccupancy", *request,
+      core_, context, "GetPointOccupancy", *request, *response,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         const int points = request->points_m_size() / 3;
         FieldReader read;
@@ -52,7 +52,7 @@ grpc::Status OccupancyHandlers::GetBoxOccupancy(grpc::ServerContext* context,
                                                 const v1::GetBoxOccupancyRequest* request,
                                                 v1::GetBoxOccupancyResponse* response) {
   return HandleQuery(
-      core_, context, "GetBoxOccupancy", *request,
+      core_, context, "GetBoxOccupancy", *request, *response,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         const std::uint64_t limit = core_.config.limits.max_points_per_query;
         FieldReader read;
@@ -68,7 +68,7 @@ grpc::Status OccupancyHandlers::GetSliceOccupancy(grpc::ServerContext* context,
                                                   const v1::GetSliceOccupancyRequest* request,
                                                   v1::GetSliceOccupancyResponse* response) {
   return HandleQuery(
-      core_, context, "GetSliceOccupancy", *request,
+      core_, context, "GetSliceOccupancy", *request, *response,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         const std::uint64_t limit = core_.config.limits.max_points_per_query;
         FieldReader read;
@@ -91,7 +91,7 @@ grpc::Status OccupancyHandlers::CastRays(grpc::ServerContext* context,
                                          const v1::CastRaysRequest* request,
                                          v1::CastRaysResponse* response) {
   return HandleQuery(
-      core_, context, "CastRays", *request,
+      core_, context, "CastRays", *request, *response,
       [&](const SceneSnapshot& scene, const Gone& gone) -> absl::Status {
         FieldReader read;
         const std::uint64_t limit = core_.config.limits.max_points_per_query;

@@ -9,7 +9,7 @@ namespace clearway {
 grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext* context,
                                          const v1::GetServerInfoRequest* request,
                                          v1::GetServerInfoResponse* response) {
-  return Handle(core_, context, "GetServerInfo", *request, [&] {
+  return HandleUnary(core_, context, "GetServerInfo", *request, *response, [&] {
     const ScenePtr scene = core_.versions.Newest();
     const ServerInfo info{VersionOf(*scene), CLEARWAY_VERSION, core_.instance, core_.config.limits,
                           scene->params};
@@ -21,7 +21,7 @@ grpc::Status InfoHandlers::GetServerInfo(grpc::ServerContext* context,
 grpc::Status InfoHandlers::GetStatus(grpc::ServerContext* context,
                                      const v1::GetStatusRequest* request,
                                      v1::GetStatusResponse* response) {
-  return Handle(core_, context, "GetStatus", *request, [&]() -> absl::Status {
+  return HandleUnary(core_, context, "GetStatus", *request, *response, [&]() -> absl::Status {
     const Gone must_end = WorkOf(core_, context);
     const ScenePtr scene = core_.versions.Newest();
     const IngestCounts counts = core_.ingestor.counts();

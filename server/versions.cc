@@ -25,6 +25,15 @@ void Versions::Publish(ScenePtr scene) {
   changed_.notify_all();
 }
 
+void Versions::KeepNewestOnly() {
+  std::deque<ScenePtr> dropped;  // freed outside the lock
+  std::lock_guard lock(mutex_);
+  while (scenes_.size() > 1) {
+    dropped.push_back(std::move(scenes_.front()));
+    scenes_.pop_front();
+  }
+}
+
 ScenePtr Versions::Newest() const {
   std::lock_guard lock(mutex_);
   return scenes_.empty() ? nullptr : scenes_.back();

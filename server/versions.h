@@ -21,6 +21,8 @@ class Versions {
   explicit Versions(std::size_t kept) : kept_(kept) {}
 
   void Publish(ScenePtr scene);
+  // Drops those before the newest: mirrors that fell behind get everything.
+  void KeepNewestOnly();
   ScenePtr Newest() const;                     // null before the first
   ScenePtr Find(std::uint64_t version) const;  // null if it is not kept
   // The newest, once it is at least `version`; null when `timeout` has passed, `gone` says so, or

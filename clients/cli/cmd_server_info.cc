@@ -50,6 +50,8 @@ Json LimitsJson(const ServerLimits& l) {
           {"max_watch_streams", l.max_watch_streams},
           {"max_stall_s", l.max_stall_s},
           {"max_connections", l.max_connections},
+          {"max_memory_bytes", l.max_memory_bytes},
+          {"max_request_memory_bytes", l.max_request_memory_bytes},
           {"max_idle_s", l.max_idle_s},
           {"max_peer_share", l.max_peer_share},
           {"max_stamp_jump_s", l.max_stamp_jump_s},

@@ -34,6 +34,8 @@ void Write(const ServerLimits& limits, v1::Limits* proto) {
   proto->set_max_watch_streams(limits.max_watch_streams);
   proto->set_max_stall_s(limits.max_stall_s);
   proto->set_max_connections(limits.max_connections);
+  proto->set_max_memory_bytes(limits.max_memory_bytes);
+  proto->set_max_request_memory_bytes(limits.max_request_memory_bytes);
   proto->set_max_idle_s(limits.max_idle_s);
   proto->set_max_peer_share(limits.max_peer_share);
   proto->set_max_stamp_jump_s(limits.max_stamp_jump_s);
@@ -70,6 +72,8 @@ ServerLimits ReadLimits(const v1::Limits& proto) {
   limits.max_watch_streams = proto.max_watch_streams();
   limits.max_stall_s = proto.max_stall_s();
   limits.max_connections = proto.max_connections();
+  limits.max_memory_bytes = proto.max_memory_bytes();
+  limits.max_request_memory_bytes = proto.max_request_memory_bytes();
   limits.max_idle_s = proto.max_idle_s();
   limits.max_peer_share = proto.max_peer_share();
   limits.max_stamp_jump_s = proto.max_stamp_jump_s();

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <set>
 #include <thread>
 #include <type_traits>
 #include <vector>
+
+#include "clearway/map/map_memory.h"
 
 namespace clearway {
 namespace {
@@ -81,6 +84,41 @@ TYPED_TEST(NodeMemory, WhatAnotherThreadGaveBackIsTakenAgain) {
 #if !defined(__SANITIZE_ADDRESS__)
   EXPECT_GT(again, kPieces * 9 / 10);  // all but what the other thread keeps at hand
 #endif
+}
+
+// Also when pieces of the same pages are in use.
+TYPED_TEST(NodeMemory, WhatIsTrimmedIsTheSystemsAndTheRestIsLeftAlone) {
+  constexpr int kPieces = 20000;
+  const std::uint64_t in_use = CurrentMapMemory().in_use_bytes;
+  const std::vector<void*> kept = TestFixture::TakeAndFill(kPieces, 3);
+  const std::vector<void*> given = TestFixture::TakeAndFill(kPieces, 4);
+  EXPECT_EQ(CurrentMapMemory().in_use_bytes, in_use + 2 * kPieces * TypeParam::value);
+  TestFixture::GiveBack(given);
+  EXPECT_EQ(CurrentMapMemory().in_use_bytes, in_use + kPieces * TypeParam::value);
+  TrimMapMemory();
+#if !defined(__SANITIZE_ADDRESS__)
+  // Of each size, the page between the two and what waited before.
+  EXPECT_LT(CurrentMapMemory().waiting_bytes, kPieces * TypeParam::value / 2);
+#endif
+  EXPECT_TRUE(TestFixture::HoldOnly(kept, 3));
+  TestFixture::GiveBack(TestFixture::TakeAndFill(kPieces, 5));
+  EXPECT_TRUE(TestFixture::HoldOnly(kept, 3));
+  TestFixture::GiveBack(kept);
+  EXPECT_EQ(CurrentMapMemory().in_use_bytes, in_use);
+}
+
+TYPED_TEST(NodeMemory, IsTrimmedWhileOtherThreadsUseIt) {
+  std::atomic<bool> ended = false;
+  std::thread trimmer([&] {
+    while (!ended) TrimMapMemory();
+  });
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<void*> pieces = TestFixture::TakeAndFill(3000, round);
+    EXPECT_TRUE(TestFixture::HoldOnly(pieces, round));
+    TestFixture::GiveBack(pieces);
+  }
+  ended = true;
+  trimmer.join();
 }
 
 }  // namespace

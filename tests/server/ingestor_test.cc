@@ -32,6 +32,8 @@ Frame Numbered(std::uint64_t sequence, double seconds) {
   return frame;
 }
 
+using Effect = Ingestor::Effect;
+
 class IngestorTest : public testing::Test {
  protected:
   Ingestor::Answer Push(Frame frame, bool allow_stamp_jump = false) {
@@ -43,14 +45,25 @@ class IngestorTest : public testing::Test {
     std::promise<void> release;
     auto started = std::make_shared<std::promise<void>>();
     auto wait = std::make_shared<std::future<void>>(release.get_future());
-    EXPECT_TRUE(dut_->Apply([started, wait](SceneBuilder&) {
-                      started->set_value();
-                      wait->wait();
-                      return absl::OkStatus();
-                    })
+    EXPECT_TRUE(dut_->Apply(
+                        [started, wait](SceneBuilder&) {
+                          started->set_value();
+                          wait->wait();
+                          return absl::OkStatus();
+                        },
+                        Effect::kTakesAway)
                     .ok());
     started->get_future().wait();
     return release;
+  }
+
+  absl::StatusOr<Ingestor::Ticket> Reset() {
+    return dut_->Apply(
+        [](SceneBuilder& builder) {
+          builder.Reset();
+          return absl::OkStatus();
+        },
+        Effect::kBeginsAnew);
   }
 
   Versions versions_{4};
@@ -79,12 +92,49 @@ TEST_F(IngestorTest, AnAnswerNamesTheFirstVersionWithTheFrame) {
 std::atomic<int> alarms = 0;
 
 TEST_F(IngestorTest, AChangeWithoutMemoryIsRefusedAndTheWriterGoesOn) {
-  const auto ticket = dut_->Apply([](SceneBuilder&) -> absl::Status { throw std::bad_alloc(); });
+  const auto ticket =
+      dut_->Apply([](SceneBuilder&) -> absl::Status { throw std::bad_alloc(); }, Effect::kAdds);
   ASSERT_TRUE(ticket.ok());
   const absl::Status refused = Ingestor::Wait(*ticket, kNever).status();
   EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(ReasonOf(refused), "NO_MEMORY");
   EXPECT_TRUE(Push(Numbered(1, 1)).ok());
+}
+
+// First kept versions go; then what adds to the scene is refused, until there is room again.
+TEST_F(IngestorTest, WithoutRoomOnlyWhatAddsIsRefused) {
+  std::atomic<int> bytes_left = 1;
+  Ingestor::Options options;
+  options.threads = 1;
+  options.has_room = [&] {
+    return bytes_left > 0 ? absl::OkStatus() : absl::ResourceExhaustedError("no room");
+  };
+  dut_ = std::make_unique<Ingestor>(options, versions_);
+  ASSERT_TRUE(Push(Numbered(1, 1)).ok());
+  ASSERT_NE(versions_.Find(1), nullptr);
+  bytes_left = 0;
+  EXPECT_TRUE(absl::IsResourceExhausted(Push(Numbered(2, 2)).status()));
+  EXPECT_EQ(versions_.Find(1), nullptr);
+  EXPECT_EQ(versions_.Newest()->version, 2u);
+  const auto cleared = dut_->Apply(
+      [](SceneBuilder& builder) {
+        builder.ClearRegion({{-100, -100, -100}, {100, 100, 100}});
+        return absl::OkStatus();
+      },
+      Effect::kTakesAway);
+  EXPECT_TRUE(Ingestor::Wait(*cleared, kNever).ok());
+  EXPECT_TRUE(Ingestor::Wait(*Reset(), kNever).ok());
+  bytes_left = 1;
+  const auto again = Push(Numbered(2, 2));
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_FALSE(again->repeated_answer);
+}
+
+TEST_F(IngestorTest, AResetDropsTheVersionsBefore) {
+  ASSERT_TRUE(Push(Numbered(1, 1)).ok());
+  const std::weak_ptr<const SceneSnapshot> before = versions_.Newest();
+  ASSERT_TRUE(Ingestor::Wait(*Reset(), kNever).ok());
+  EXPECT_TRUE(before.expired());
 }
 
 // Else it kept a processor from who asks until the kernel's next tick.
@@ -94,12 +144,14 @@ TEST_F(IngestorTest, TheWriterIsInterruptedWhileItApplies) {
   struct sigaction count {};
   count.sa_handler = [](int) { ++alarms; };
   ASSERT_EQ(sigaction(TurnAlarm::Signal(), &count, nullptr), 0);
-  const auto ticket = dut_->Apply([](SceneBuilder&) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (alarms < 3 && std::chrono::steady_clock::now() < end) {
-    }
-    return absl::OkStatus();
-  });
+  const auto ticket = dut_->Apply(
+      [](SceneBuilder&) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (alarms < 3 && std::chrono::steady_clock::now() < end) {
+        }
+        return absl::OkStatus();
+      },
+      Effect::kTakesAway);
   ASSERT_TRUE(ticket.ok());
   EXPECT_TRUE(Ingestor::Wait(*ticket, kNever).ok());
   EXPECT_GE(alarms, 3);
@@ -128,10 +180,12 @@ TEST_F(IngestorTest, AFrameForWhichThereWasNoRoomIsAppliedOnceThereIs) {
   testing_support::AddPoint(behind, kStaticLabel, {-10, 0.05, 0.05});
   ASSERT_TRUE(Push(ahead).ok());
   ASSERT_TRUE(absl::IsResourceExhausted(Push(behind).status()));
-  ASSERT_TRUE(dut_->Apply([](SceneBuilder& builder) {
-                    builder.ClearRegion({{-100, -100, -100}, {100, 100, 100}});
-                    return absl::OkStatus();
-                  })
+  ASSERT_TRUE(dut_->Apply(
+                      [](SceneBuilder& builder) {
+                        builder.ClearRegion({{-100, -100, -100}, {100, 100, 100}});
+                        return absl::OkStatus();
+                      },
+                      Effect::kTakesAway)
                   .ok());
   const auto again = Push(behind);
   EXPECT_TRUE(again.ok()) << again.status();
@@ -223,12 +277,7 @@ TEST_F(IngestorTest, RemembersAsManyAnswersAsItMay) {
 
 TEST_F(IngestorTest, ResetForgetsAnswersAndStamps) {
   ASSERT_TRUE(Push(Numbered(1, 10)).ok());
-  auto reset = dut_->Apply(
-      [](SceneBuilder& builder) {
-        builder.Reset();
-        return absl::OkStatus();
-      },
-      true);
+  auto reset = Reset();
   ASSERT_TRUE(reset.ok());
   ASSERT_TRUE(Ingestor::Wait(*reset, kNever).ok());
   const auto again = Push(Numbered(1, 1));
@@ -239,13 +288,7 @@ TEST_F(IngestorTest, ResetForgetsAnswersAndStamps) {
 
 TEST_F(IngestorTest, AFramePushedWhileAResetWaitsIsRememberedAfterIt) {
   std::promise<void> release = Block();
-  ASSERT_TRUE(dut_->Apply(
-                      [](SceneBuilder& builder) {
-                        builder.Reset();
-                        return absl::OkStatus();
-                      },
-                      true)
-                  .ok());
+  ASSERT_TRUE(Reset().ok());
   const auto first = dut_->Push(Pushed(Numbered(1, 1)));
   release.set_value();
   ASSERT_TRUE(Ingestor::Wait(*first, kNever).ok());

@@ -206,7 +206,8 @@ TEST_F(WatchStream, GoesOnWhenItsRobotIsForgotten) {
   ASSERT_TRUE(
       server_.core()
           .ingestor
-          .Apply([&](SceneBuilder& builder) { return builder.AddObjects(std::span(&post, 1)); })
+          .Apply([&](SceneBuilder& builder) { return builder.AddObjects(std::span(&post, 1)); },
+                 Ingestor::Effect::kAdds)
           .ok());
   ASSERT_TRUE(stream->Read(&response)) << stream->Finish().error_message();
   ASSERT_EQ(response.broken_size(), 1);

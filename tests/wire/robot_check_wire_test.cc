@@ -229,6 +229,8 @@ TEST(ServerWire, InfoComesBackWithEveryLimit) {
                                &l.max_points_per_frame,
                                &l.max_ray_voxels,
                                &l.max_connections,
+                               &l.max_memory_bytes,
+                               &l.max_request_memory_bytes,
                                &l.max_blocks,
                                &l.max_objects,
                                &l.max_states_per_batch,

@@ -17,6 +17,10 @@ struct ServerLimits {
   std::uint64_t max_objects = 4'096;
   double max_coordinate_m = 100'000;
   std::uint64_t max_blocks = 1 << 22;  // of 8 x 8 x 8 voxels, in all maps of the scene
+  // Of the process, when something is to be added; 0 to a server: half of the memory there is.
+  std::uint64_t max_memory_bytes = 0;
+  // Of requests that are being answered and replies that are not read yet, together.
+  std::uint64_t max_request_memory_bytes = 1 << 30;
   std::uint64_t max_states_per_batch = 20'000;
   std::uint64_t max_points_per_query = 4'000'000;  // points, cells, rays or poses
   std::uint64_t max_robots = 64;

@@ -1,4 +1,4 @@
-#include "server/status_interceptor.h"
+#include "server/call_interceptor.h"
 
 #include "server/handler.h"
 
@@ -12,8 +12,12 @@ absl::Status Explained(const grpc::Status& status) {
   return {static_cast<absl::StatusCode>(status.error_code()), status.error_message()};
 }
 
-class StatusInterceptor : public grpc::experimental::Interceptor {
+class CallInterceptor : public grpc::experimental::Interceptor {
  public:
+  CallInterceptor(OpenCalls& calls, const grpc::ServerContextBase* context)
+      : calls_(calls), context_(context) {}
+  ~CallInterceptor() override { calls_.Ended(context_); }
+
   void Intercept(grpc::experimental::InterceptorBatchMethods* methods) override {
     using grpc::experimental::InterceptionHookPoints;
     if (methods->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
@@ -24,20 +28,29 @@ class StatusInterceptor : public grpc::experimental::Interceptor {
     }
     methods->Proceed();
   }
+
+ private:
+  OpenCalls& calls_;
+  const grpc::ServerContextBase* const context_;
 };
 
 class Factory : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
+  explicit Factory(OpenCalls& calls) : calls_(calls) {}
   grpc::experimental::Interceptor* CreateServerInterceptor(
-      grpc::experimental::ServerRpcInfo*) override {
-    return new StatusInterceptor;  // gRPC takes it over
+      grpc::experimental::ServerRpcInfo* info) override {
+    return new CallInterceptor(calls_, info->server_context());  // gRPC takes it over
   }
+
+ private:
+  OpenCalls& calls_;
 };
 
 }  // namespace
 
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> MakeStatusInterceptor() {
-  return std::make_unique<Factory>();
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> MakeCallInterceptor(
+    OpenCalls& calls) {
+  return std::make_unique<Factory>(calls);
 }
 
 }  // namespace clearway
