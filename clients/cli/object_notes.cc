@@ -1,6 +1,7 @@
 #include "cli/object_notes.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
@@ -20,6 +21,8 @@ const char* NameOf(ObjectIssueKind kind) {
       return "MOTION_TOO_FAST";
     case ObjectIssueKind::kContradicted:
       return "CONTRADICTED";
+    case ObjectIssueKind::kJumped:
+      return "JUMPED";
     case ObjectIssueKind::kRestarted:
       return "RESTARTED";
     case ObjectIssueKind::kBridgedTooLong:
@@ -30,7 +33,11 @@ const char* NameOf(ObjectIssueKind kind) {
 
 // What happened at `when`, and why.
 std::string Describe(const ObjectIssue& issue, const std::string& when) {
-  const std::string value = Fixed(issue.value, 2), limit = Fixed(issue.limit, 2);
+  std::string value = Fixed(issue.value, 2), limit = Fixed(issue.limit, 2);
+  if (value == limit) {
+    value = NumberText(issue.value);
+    limit = NumberText(issue.limit);
+  }
   switch (issue.kind) {
     case ObjectIssueKind::kTurnTooLarge:
       return absl::StrCat("motion left out at ", when, ": turns by ", value, " rad (limit ", limit,
@@ -47,6 +54,9 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
     case ObjectIssueKind::kContradicted:
       return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
                           " m from its points (limit ", limit, " m)");
+    case ObjectIssueKind::kJumped:
+      return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
+                          " m from where it was predicted (limit ", limit, " m)");
     case ObjectIssueKind::kRestarted:
       return absl::StrCat("model restarted at ", when, ": points ", value,
                           " m from the prediction (bound ", limit, " m)");

@@ -1,6 +1,7 @@
 #include "cli/scenario_space.h"
 
 #include "absl/strings/str_cat.h"
+#include "clearway/base/number_text.h"
 #include "cli/json_fields.h"
 
 namespace clearway::cli {
@@ -46,9 +47,9 @@ absl::StatusOr<Joint> ParseJoint(const Json& value, const std::string& path) {
     *number = *read;
   }
   if (joint.min_rad > joint.max_rad) {
-    return absl::InvalidArgumentError(absl::StrCat(path, ": min_rad is ", joint.min_rad,
+    return absl::InvalidArgumentError(absl::StrCat(path, ": min_rad is ", NumberText(joint.min_rad),
                                                    "; it must be at most max_rad, which is ",
-                                                   joint.max_rad));
+                                                   NumberText(joint.max_rad)));
   }
   return joint;
 }

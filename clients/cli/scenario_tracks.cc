@@ -127,6 +127,9 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
   if (!recorded.ok()) return recorded.status();
   if (value.at("format") != "boxes") Move(*origin, recorded->tracks);
   if (auto status = LeaveOutFar(*fields, *file, *recorded); !status.ok()) return status;
+  if (recorded->tracks.empty()) {
+    return fields->Error("file", absl::StrCat(*file, " holds nothing that could be in the way"));
+  }
   const Range range = RangeOf(recorded->tracks);
   const bool any_moves = range.from_s <= range.until_s;
   const std::string lasts = absl::StrFormat("from %.10g to %.10g s", range.from_s, range.until_s);
@@ -143,6 +146,7 @@ absl::StatusOr<TrackObjects> ParseTracks(const Json& value, const std::string& p
         "goes straight on",
         path, lasts, ends_s);
   }
+  if (!any_moves) result.note = absl::StrCat(path, ": nothing moves in ", *file);
   for (const Track& track : recorded->tracks) {
     if (std::abs(track.seen.front().t_s) > kLongest_s || track.seen.back().t_s > kLongest_s) {
       return fields->Error("file", absl::StrCat("its times are too long, beyond ",

@@ -48,9 +48,9 @@ absl::Status CheckJoint(const std::string& field, const Joint& joint) {
     return status;
   }
   if (joint.min_rad > joint.max_rad) {
-    return absl::InvalidArgumentError(absl::StrCat(field, ": min_rad is ", joint.min_rad,
-                                                   "; it must be at most max_rad, which is ",
-                                                   joint.max_rad));
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ": min_rad is ", NumberText(joint.min_rad),
+                     "; it must be at most max_rad, which is ", NumberText(joint.max_rad)));
   }
   const bool locked = joint.min_rad == joint.max_rad;
   if (locked && joint.max_radps == 0) return absl::OkStatus();

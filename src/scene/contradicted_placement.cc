@@ -9,16 +9,6 @@
 namespace clearway {
 namespace {
 
-// Where the clue puts O; none if it does not say.
-std::optional<Pose> StatedPose(const MovingObject& object, const ObjectClue& clue, Time stamp,
-                               const SceneParams& params) {
-  if (clue.motion != nullptr) {
-    return clue.motion->H_W * StartOf(*clue.motion, object, stamp, params);
-  }
-  if (clue.pose != nullptr && object.T_B_O) return clue.pose->T_W_B * *object.T_B_O;
-  return std::nullopt;
-}
-
 std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const LabelledCloud& cloud,
                                            Time stamp, const SceneParams& params,
                                            const ObjectClue& clue) {

@@ -14,6 +14,7 @@
 #include "scene/other_ids.h"
 #include "scene/point_placement.h"
 #include "scene/report_issue.h"
+#include "scene/sudden_jump.h"
 
 namespace clearway {
 namespace {
@@ -96,6 +97,7 @@ ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Ti
   LeaveOutImplausible(named, cloud, stamp, params, limits, clues, report);
   const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues, report);
   LeaveOutContradicted(named, cloud, stamp, params, clues, report);
+  LeaveOutJumps(named, stamp, params, clues, report);
   const std::map<ObjectId, Sighting> sightings = SightingsOf(named, clues, stamp, params);
   ObjectMap continuing;
   for (const auto& object : named) {

@@ -194,6 +194,15 @@ Pose StartOf(const ObjectMotion& motion, const MovingObject& object, Time stamp,
   return Inverse(motion.H_W) * Exp(share * Log(motion.H_W)) * first.T_W_O;
 }
 
+std::optional<Pose> StatedPose(const MovingObject& object, const ObjectClue& clue, Time stamp,
+                               const SceneParams& params) {
+  if (clue.motion != nullptr) {
+    return clue.motion->H_W * StartOf(*clue.motion, object, stamp, params);
+  }
+  if (clue.pose != nullptr && object.T_B_O) return clue.pose->T_W_B * *object.T_B_O;
+  return std::nullopt;
+}
+
 bool StartsAtAPose(const ObjectMotion& motion, const MovingObject& object) {
   return motion.from >= object.first_seen - kNoGap && motion.from <= object.t_k() + kNoGap;
 }

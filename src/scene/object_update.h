@@ -53,6 +53,10 @@ void NoteIds(MovingObject& object, const std::vector<ObjectId>& named_as, Time s
 Pose StartOf(const ObjectMotion& motion, const MovingObject& object, Time stamp,
              const SceneParams& params);
 
+// T_W_O where the clue's motion or pose puts it at `stamp`; none if it does not say.
+std::optional<Pose> StatedPose(const MovingObject& object, const ObjectClue& clue, Time stamp,
+                               const SceneParams& params);
+
 // Whether the motion starts from a pose of the object that is known, be it by another prediction:
 // not after the newest, and not before the first.
 bool StartsAtAPose(const ObjectMotion& motion, const MovingObject& object);

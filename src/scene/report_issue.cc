@@ -8,6 +8,7 @@ void AddIssue(const ObjectIssue& issue, FrameReport& report) {
     case ObjectIssueKind::kMotionTooFar:
     case ObjectIssueKind::kMotionTooFast:
     case ObjectIssueKind::kContradicted:
+    case ObjectIssueKind::kJumped:
       ++report.motions_implausible;
       break;
     case ObjectIssueKind::kMotionConflict:

@@ -75,9 +75,20 @@ std::string Spoilt(const std::string& what, const std::string& by) {
 }
 
 TEST_F(CommonRoadTracks, Empty) {
-  const auto dut = Parse(R"(<commonRoad commonRoadVersion="2018b" timeStepSize="0.1"/>)");
+  EXPECT_THAT(MessageOf(R"(<commonRoad commonRoadVersion="2018b" timeStepSize="0.1"/>)"),
+              HasSubstr("file: road.xml holds nothing that could be in the way"));
+}
+
+// An element's name may be misspelt.
+TEST_F(CommonRoadTracks, ARoadOnWhichNothingMovesIsNoted) {
+  std::string text = kRoad;
+  for (const std::string tag : {"<dynamicObstacle", "</dynamicObstacle"}) {
+    text.replace(text.find(tag), tag.size(), tag.substr(0, tag.size() - 1));
+  }
+  const auto dut = ParseAll(text, 0.5);
   ASSERT_TRUE(dut.ok()) << dut.status();
-  EXPECT_TRUE(dut->empty());
+  EXPECT_EQ(dut->objects.size(), 1u);
+  EXPECT_THAT(dut->note, HasSubstr("nothing moves in road.xml"));
 }
 
 TEST_F(CommonRoadTracks, ACarGoesStraightBeforeAndAfterItIsSeen) {

@@ -33,9 +33,11 @@ class UcyPeople : public testing::Test {
 };
 
 TEST_F(UcyPeople, Empty) {
-  const auto dut = Read("");
-  ASSERT_TRUE(dut.ok()) << dut.status();
-  EXPECT_TRUE(dut->empty());
+  for (const char* const text : {"", "\n \t\r\n"}) {
+    const auto dut = Read(text);
+    EXPECT_TRUE(absl::IsInvalidArgument(dut.status()));
+    EXPECT_THAT(dut.status().message(), HasSubstr("obsmat.txt: is empty"));
+  }
   EXPECT_TRUE(absl::IsNotFound(ReadUcyPeople(folder_.path() / "none", left_out_).status()));
 }
 

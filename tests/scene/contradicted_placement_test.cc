@@ -113,11 +113,11 @@ TEST_F(ContradictedPlacement, TheOtherEndOfAnObjectIsItsOwn) {
 
 TEST_F(ContradictedPlacement, AMotionThatThePointsConfirmCounts) {
   ShowMoving(false);
-  Frame frame = Showing(0.6, 25);
-  frame.motions.push_back({5, Pose::Translation(19.5, 0, 0), At(0.5)});
+  Frame frame = Showing(0.6, 6.7);
+  frame.motions.push_back({5, Pose::Translation(1.2, 0, 0), At(0.5)});
   EXPECT_TRUE(Applied(frame).issues.empty());
   EXPECT_LT(Length(), 4.5);
-  EXPECT_NEAR(CenterX(), 25, 0.1);
+  EXPECT_NEAR(CenterX(), 6.7, 0.1);
 }
 
 TEST_F(ContradictedPlacement, TwoStrayPointsSayNothing) {

@@ -9,11 +9,12 @@ namespace clearway {
 
 enum class ObjectIssueKind {
   // Its motion or pose was left out, as if the frame did not have it:
-  kTurnTooLarge = 1,    // turns by `value` rad, more than kMaxTurn_rad
+  kTurnTooLarge = 1,    // turns by `value` rad, or from where it was predicted, more than `limit`
   kMotionTooFar = 2,    // leads to a coordinate of `value` m, beyond FrameLimits::max_coordinate_m
   kMotionConflict = 3,  // another motion or pose of the object under another of its ids counts
   kMotionTooFast = 6,   // moves it at `value` m/s, more than kMaxSpeed_mps
   kContradicted = 7,    // puts it `value` m from its points, more than `limit` m
+  kJumped = 8,          // puts it `value` m from where it was predicted, more than `limit` m
   // Its points came without a motion or pose and are not where it was predicted: it was dropped,
   // and a new model with the same id begins.
   kRestarted = 4,       // the points are `value` m off; the 95 % bound is `limit` m

@@ -1,0 +1,125 @@
+#include "scene/sudden_jump.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "clearway/scene/timed_scene.h"
+#include "support/frames.h"
+
+namespace clearway {
+namespace {
+
+using testing_support::AddObject;
+using testing_support::At;
+using testing_support::BoxSurface;
+using testing_support::FrameAt;
+
+// Two cars of 4 x 2 x 2 m, 4 m beside each other, that go along x at 5 m/s, ten frames a second.
+class SuddenJump : public testing::Test {
+ protected:
+  static Pose CarAt(int k, double y_m) { return Pose::Translation(5 + 0.5 * k, y_m, 1); }
+
+  // Where each id is. With motions from the frame before, or with poses.
+  struct Lanes {
+    double y1_m = 0, y2_m = 4;
+  };
+  static Frame Showing(int k, const Lanes& before, const Lanes& now, bool with_poses) {
+    Frame frame = FrameAt(0.1 * k);
+    for (const auto& [id, from_m, to_m] :
+         {std::tuple{1, before.y1_m, now.y1_m}, std::tuple{2, before.y2_m, now.y2_m}}) {
+      AddObject(frame, id, CarAt(k, to_m), BoxSurface({4, 2, 2}, 0.2));
+      if (with_poses) {
+        frame.poses.push_back({id, CarAt(k, to_m)});
+      } else if (k > 0) {
+        const Pose H_W = CarAt(k, to_m) * Inverse(CarAt(k - 1, from_m));
+        frame.motions.push_back({id, H_W, At(0.1 * (k - 1))});
+      }
+    }
+    return frame;
+  }
+  FrameReport Applied(const Frame& frame) {
+    const auto report = dut_.Apply(frame);
+    EXPECT_TRUE(report.ok()) << report.status();
+    return report.ok() ? *report : FrameReport();
+  }
+  void Drive(int frames, bool with_poses) {
+    for (int k = 0; k < frames; ++k) {
+      EXPECT_TRUE(Applied(Showing(k, {}, {}, with_poses)).issues.empty()) << k;
+    }
+  }
+  // In the middle of a car, so many frames after frame k.
+  SpaceStatus StatusAhead(int k, int ahead, double y_m) {
+    const ScenePtr scene = dut_.Publish();
+    const Time t = At(0.1 * (k + ahead));
+    return TimedScene(*scene, scene->stamp, t).At(CarAt(k + ahead, y_m).translation, t).status;
+  }
+
+  ThreadPool pool_{1};
+  SceneBuilder dut_{SceneParams{}, FrameLimits{}, pool_};
+};
+
+// The cars are where they were, but each is called as the other one.
+TEST_F(SuddenJump, SwappedIdsBeginNewModelsAndNothingIsFreeAhead) {
+  for (const bool with_poses : {false, true}) {
+    dut_.Reset();
+    Drive(10, with_poses);
+    const FrameReport report = Applied(Showing(10, {0, 4}, {4, 0}, with_poses));
+    EXPECT_EQ(report.motions_implausible, 2u) << with_poses;
+    EXPECT_EQ(report.objects_restarted, 2u);
+    ASSERT_EQ(report.issues.size(), 4u);
+    EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kJumped);
+    EXPECT_NEAR(report.issues[0].value, 4, 0.1);
+    EXPECT_LT(report.issues[0].limit, 3);
+    for (const double y_m : {0.0, 4.0}) {
+      EXPECT_EQ(StatusAhead(10, 0, y_m), SpaceStatus::kOccupied) << y_m;
+      EXPECT_EQ(StatusAhead(10, 1, y_m), SpaceStatus::kOccupied) << y_m;
+      EXPECT_EQ(StatusAhead(10, 2, y_m), SpaceStatus::kOccupied) << y_m;
+    }
+    for (int k = 11; k < 14; ++k) {
+      EXPECT_TRUE(Applied(Showing(k, {4, 0}, {4, 0}, with_poses)).issues.empty()) << k;
+    }
+    EXPECT_NEAR(dut_.Publish()->FindObject(1)->SpeedMps(), 5, 0.1);
+    EXPECT_LT(dut_.Publish()->FindObject(1)->solid->box_O.Size().y(), 2.5);
+  }
+}
+
+// Boxes whose heading is off by less than half a turn: the points are where they were predicted.
+TEST_F(SuddenJump, ABoxThatIsTurnedRoundIsLeftOut) {
+  Drive(10, false);
+  Frame frame = Showing(10, {}, {}, false);
+  const Pose turn{Eigen::Quaterniond(Eigen::AngleAxisd(2.75, Eigen::Vector3d::UnitZ())),
+                  Eigen::Vector3d::Zero()};
+  frame.motions[0].H_W = CarAt(10, 0) * turn * Inverse(CarAt(9, 0));
+  const FrameReport report = Applied(frame);
+  ASSERT_EQ(report.issues.size(), 1u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kTurnTooLarge);
+  EXPECT_NEAR(report.issues[0].value, 2.75, 0.01);
+  EXPECT_EQ(report.objects_bridged, 1u);
+  EXPECT_EQ(StatusAhead(10, 2, 0), SpaceStatus::kOccupied);
+  EXPECT_LT(dut_.Publish()->FindObject(1)->solid->box_O.Size().x(), 4.5);
+}
+
+// As hard as anything on wheels can: 10 m/s^2, and a quarter turn within half a second.
+TEST_F(SuddenJump, WhatBrakesAndTurnsIsNoJump) {
+  Pose T_W_B = CarAt(0, 0);
+  double speed_mps = 15;
+  for (int k = 0; k < 40; ++k) {
+    Frame frame = FrameAt(0.1 * k);
+    const bool brakes = k >= 10 && k < 20, turns = k >= 25 && k < 30;
+    if (brakes) speed_mps = std::max(2.0, speed_mps - 1);
+    const Pose step{
+        Eigen::Quaterniond(Eigen::AngleAxisd(turns ? 0.314 : 0, Eigen::Vector3d::UnitZ())),
+        Eigen::Vector3d(0.1 * speed_mps, 0, 0)};
+    const Pose from = T_W_B;
+    T_W_B = T_W_B * step;
+    AddObject(frame, 1, T_W_B, BoxSurface({4, 2, 2}, 0.2));
+    if (k > 0) frame.motions.push_back({1, T_W_B * Inverse(from), At(0.1 * (k - 1))});
+    EXPECT_TRUE(Applied(frame).issues.empty()) << k;
+  }
+}
+
+}  // namespace
+}  // namespace clearway
