@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "clearway/base/file.h"
 
 namespace clearway {
@@ -24,9 +23,6 @@ void AddWords(std::string_view line, const WordFormat& format, Row& row) {
 absl::StatusOr<std::string> ReadText(const std::filesystem::path& path, const WordFormat& format) {
   absl::StatusOr<std::string> text = ReadTextFile(path, kMaxBytes);
   if (!text.ok()) return text;
-  if (Trimmed(*text).empty()) {
-    return absl::InvalidArgumentError(absl::StrCat(path.string(), ": is empty"));
-  }
   if (auto status = CheckLastLine(path.string(), *text, format.last); !status.ok()) return status;
   return text;
 }
