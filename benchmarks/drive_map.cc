@@ -110,8 +110,8 @@ DriveMap MakeDriveMap(std::size_t scans) {
   const std::vector<Frame> frames = WholeScans(scans);
   DriveMap drive;
   drive.scene = Integrate(frames);
+  drive.read_tree = ReadFrom(drive.scene->static_map_W);  // first: into a heap without holes
   drive.tree = InsertAll(frames);
-  drive.read_tree = ReadFrom(drive.scene->static_map_W);
   const Eigen::Vector3d center_W = frames.front().T_W_S.translation;
   drive.box_W = drive.scene->static_map_W.ObservedBox();
   drive.box_W.min = drive.box_W.min.cwiseMax(center_W - Eigen::Vector3d(20, 20, 2.5));
