@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
+#include "io/ply_mesh_reading.h"
 #include "io/tetrahedra_example.h"
 
 namespace clearway {
@@ -16,46 +16,32 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
+using testing_support::PlyErrorOf;
+using testing_support::ReadPly;
+using testing_support::With;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-absl::StatusOr<Mesh> Read(const std::string& bytes, const MeshFileOptions& options = {}) {
-  return ReadPlyMesh("a.ply", bytes, options);
-}
-
-std::string ErrorOf(const std::string& bytes) {
-  const auto mesh = Read(bytes);
-  EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument) << mesh.status();
-  EXPECT_THAT(std::string(mesh.status().message()), StartsWith("a.ply"));
-  return std::string(mesh.status().message());
-}
-
-std::string With(const std::string& text, const std::string& from, const std::string& to) {
-  EXPECT_THAT(text, HasSubstr(from));
-  return absl::StrReplaceAll(text, {{from, to}});
-}
-
 TEST(PlyMesh, Empty) {
-  EXPECT_EQ(ErrorOf(""), "a.ply: the file is empty");
+  EXPECT_EQ(PlyErrorOf(""), "a.ply: the file is empty");
   const std::string none =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
       "property float y\nproperty float z\n";
-  EXPECT_THAT(ErrorOf(none + "end_header\n"), HasSubstr("no element face: a cloud of points"));
-  EXPECT_EQ(ErrorOf(none + "element face 0\nproperty list uchar int vertex_index\nend_header\n"),
+  EXPECT_THAT(PlyErrorOf(none + "end_header\n"), HasSubstr("no element face: a cloud of points"));
+  EXPECT_EQ(PlyErrorOf(none + "element face 0\nproperty list uchar int vertex_index\nend_header\n"),
             "a.ply: no triangle with an area");
 }
 
 TEST(PlyMesh, FilesOfEachFormatAreRead) {
-  const auto ascii = Read(AsciiPly());
+  const auto ascii = ReadPly(AsciiPly());
   ASSERT_TRUE(ascii.ok()) << ascii.status();
   EXPECT_EQ(ascii->vertices.size(), 12u);
   EXPECT_EQ(ascii->triangles.size(), 12u);
-  const auto windows = Read(With(AsciiPly(), "\n", "\r\n"));
+  const auto windows = ReadPly(With(AsciiPly(), "\n", "\r\n"));
   ASSERT_TRUE(windows.ok()) << windows.status();
   EXPECT_EQ(*windows, *ascii);
   for (const bool big_endian : {false, true}) {
-    const auto binary = Read(BinaryPly(big_endian));
+    const auto binary = ReadPly(BinaryPly(big_endian));
     ASSERT_TRUE(binary.ok()) << binary.status();
     EXPECT_THAT(binary->vertices, ElementsAre(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1, 0),
                                               Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)));
@@ -92,7 +78,7 @@ TEST(PlyMesh, OtherElementsAndPropertiesArePassedOver) {
     put(std::uint8_t{1});
     put(0.5f);
     put(std::int32_t{1});
-    const auto mesh = Read(ply);
+    const auto mesh = ReadPly(ply);
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_THAT(mesh->vertices,
                 ElementsAre(Eigen::Vector3d(0.2, -4, -300), Eigen::Vector3d(0.1, -1, -300),
@@ -106,25 +92,25 @@ TEST(PlyMesh, EqualVerticesAreJoinedAndTrianglesWithoutAreaLeftOut) {
       "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
       "property float z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n-0 1 0\n3 0 1 2\n3 3 4 5\n3 0 1 3\n\n \n";
-  const auto mesh = Read(ply);
+  const auto mesh = ReadPly(ply);
   ASSERT_TRUE(mesh.ok()) << mesh.status();
   EXPECT_EQ(mesh->vertices.size(), 4u);
   EXPECT_EQ(mesh->triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
-  EXPECT_THAT(ErrorOf(PlyFace({{1, 1, 1}, {2, 2, 2}, {3, 3, 3}})), HasSubstr("no triangle"));
+  EXPECT_THAT(PlyErrorOf(PlyFace({{1, 1, 1}, {2, 2, 2}, {3, 3, 3}})), HasSubstr("no triangle"));
 }
 
 TEST(PlyMesh, PolygonsAreCut) {
   MeshFileOptions options;
   options.scale = 0.5;
-  const auto quad = Read(PlyFace({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}), options);
+  const auto quad = ReadPly(PlyFace({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}), options);
   ASSERT_TRUE(quad.ok()) << quad.status();
   EXPECT_EQ(quad->triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(quad->vertices[2], Eigen::Vector3d(1, 1, 0));
   // A fan around the first corner would cover what is outside.
-  const auto dart = Read(PlyFace({{0, 0, 0}, {1, 2, 0}, {0, 1, 0}, {-1, 2, 0}}));
+  const auto dart = ReadPly(PlyFace({{0, 0, 0}, {1, 2, 0}, {0, 1, 0}, {-1, 2, 0}}));
   ASSERT_TRUE(dart.ok()) << dart.status();
   EXPECT_EQ(dart->triangles.size(), 2u);
-  const auto notch = Read(PlyFace({{4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}, {0, 0, 0}}));
+  const auto notch = ReadPly(PlyFace({{4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}, {0, 0, 0}}));
   ASSERT_TRUE(notch.ok()) << notch.status();
   double area = 0;
   for (const auto& [a, b, c] : notch->triangles) {
@@ -136,10 +122,10 @@ TEST(PlyMesh, PolygonsAreCut) {
 }
 
 TEST(PlyMesh, FacesThatAreNotSimpleAreRefused) {
-  EXPECT_THAT(ErrorOf(PlyFace({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 2, 0}})),
+  EXPECT_THAT(PlyErrorOf(PlyFace({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 2, 0}})),
               HasSubstr("face 0 crosses or touches itself: export triangles"));
   const std::vector<Eigen::Vector3d> many(10'001, Eigen::Vector3d(1, 2, 3));
-  EXPECT_THAT(ErrorOf(PlyFace(many)),
+  EXPECT_THAT(PlyErrorOf(PlyFace(many)),
               HasSubstr("face 0 has a list of 10001 vertices; a face has 3"));
 }
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <future>
 
-#include "server/leases.h"
 #include "server/thread_priority.h"
 #include "support/frames.h"
 #include "wire/status.h"
@@ -103,16 +102,16 @@ TEST_F(IngestorTest, AChangeWithoutMemoryIsRefusedAndTheWriterGoesOn) {
 
 // First kept versions go; then what adds to the scene is refused, until there is room again.
 TEST_F(IngestorTest, WithoutRoomOnlyWhatAddsIsRefused) {
-  std::atomic<int> bytes_left = 1;
+  std::atomic<bool> has_room = true;
   Ingestor::Options options;
   options.threads = 1;
   options.has_room = [&] {
-    return bytes_left > 0 ? absl::OkStatus() : absl::ResourceExhaustedError("no room");
+    return has_room ? absl::OkStatus() : absl::ResourceExhaustedError("no room");
   };
   dut_ = std::make_unique<Ingestor>(options, versions_);
   ASSERT_TRUE(Push(Numbered(1, 1)).ok());
   ASSERT_NE(versions_.Find(1), nullptr);
-  bytes_left = 0;
+  has_room = false;
   EXPECT_TRUE(absl::IsResourceExhausted(Push(Numbered(2, 2)).status()));
   EXPECT_EQ(versions_.Find(1), nullptr);
   EXPECT_EQ(versions_.Newest()->version, 2u);
@@ -124,7 +123,7 @@ TEST_F(IngestorTest, WithoutRoomOnlyWhatAddsIsRefused) {
       Effect::kTakesAway);
   EXPECT_TRUE(Ingestor::Wait(*cleared, kNever).ok());
   EXPECT_TRUE(Ingestor::Wait(*Reset(), kNever).ok());
-  bytes_left = 1;
+  has_room = true;
   const auto again = Push(Numbered(2, 2));
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_FALSE(again->repeated_answer);
@@ -346,65 +345,6 @@ TEST_F(IngestorTest, WhatStillWaitsWhenTheTimeToDrainIsOverIsNotApplied) {
   release.set_value();
   EXPECT_TRUE(dut_->Drain(std::chrono::steady_clock::now() + std::chrono::hours(1)));
   EXPECT_EQ(dut_->counts().frames_applied, 0u);
-}
-
-class LeasesTest : public testing::Test {
- protected:
-  ScenePtr Scene() {
-    SceneSnapshot scene = SceneSnapshot::Empty({});
-    scene.version = 5;
-    return std::make_shared<const SceneSnapshot>(scene);
-  }
-  Leases::Clock::time_point now_;
-  Leases dut_{
-      {.max_leases = 2, .max_ttl = std::chrono::seconds(60), .now = [this] { return now_; }}};
-};
-
-TEST_F(LeasesTest, Empty) {
-  EXPECT_EQ(dut_.size(), 0u);
-  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Find("x").status()));
-}
-
-TEST_F(LeasesTest, HoldsAVersionUntilItsTimeIsOver) {
-  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
-  ASSERT_TRUE(lease.ok());
-  now_ += std::chrono::seconds(9);
-  EXPECT_EQ((*dut_.Find(lease->id))->version, 5u);
-  now_ += std::chrono::seconds(1);
-  const absl::Status gone = dut_.Find(lease->id).status();
-  EXPECT_TRUE(absl::IsFailedPrecondition(gone));
-  EXPECT_EQ(ReasonOf(gone), "LEASE_GONE");
-  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Renew(lease->id, std::chrono::seconds(9)).status()));
-}
-
-TEST_F(LeasesTest, RenewalCountsFromNow) {
-  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
-  now_ += std::chrono::seconds(9);
-  ASSERT_TRUE(dut_.Renew(lease->id, std::chrono::seconds(10)).ok());
-  now_ += std::chrono::seconds(9);
-  EXPECT_TRUE(dut_.Find(lease->id).ok());
-}
-
-TEST_F(LeasesTest, IsGrantedAtMostTheLongestTime) {
-  EXPECT_EQ(dut_.Acquire(Scene(), std::chrono::hours(1), "planner")->ttl, std::chrono::seconds(60));
-}
-
-TEST_F(LeasesTest, RefusesMoreThanAllowedUntilOneEnds) {
-  const auto first = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
-  ASSERT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
-  EXPECT_TRUE(absl::IsResourceExhausted(
-      dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").status()));
-  dut_.Release(first->id);
-  EXPECT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
-}
-
-TEST_F(LeasesTest, TheVersionIsFreedWithTheLease) {
-  ScenePtr scene = Scene();
-  const std::weak_ptr<const SceneSnapshot> watch = scene;
-  const auto lease = dut_.Acquire(std::move(scene), std::chrono::seconds(10), "planner");
-  EXPECT_FALSE(watch.expired());
-  dut_.Release(lease->id);
-  EXPECT_TRUE(watch.expired());
 }
 
 }  // namespace

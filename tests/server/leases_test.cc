@@ -4,6 +4,8 @@
 
 #include <future>
 
+#include "wire/status.h"
+
 namespace clearway {
 namespace {
 
@@ -68,6 +70,65 @@ TEST(LeasesOfPeers, NoneKeepsTheOthersOut) {
   EXPECT_TRUE(absl::IsResourceExhausted(acquire("c").status()));
   dut.Release(second->id);
   EXPECT_TRUE(acquire("c").ok());
+}
+
+class LeasesTest : public testing::Test {
+ protected:
+  ScenePtr Scene() {
+    SceneSnapshot scene = SceneSnapshot::Empty({});
+    scene.version = 5;
+    return std::make_shared<const SceneSnapshot>(scene);
+  }
+  Leases::Clock::time_point now_;
+  Leases dut_{
+      {.max_leases = 2, .max_ttl = std::chrono::seconds(60), .now = [this] { return now_; }}};
+};
+
+TEST_F(LeasesTest, Empty) {
+  EXPECT_EQ(dut_.size(), 0u);
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Find("x").status()));
+}
+
+TEST_F(LeasesTest, HoldsAVersionUntilItsTimeIsOver) {
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
+  ASSERT_TRUE(lease.ok());
+  now_ += std::chrono::seconds(9);
+  EXPECT_EQ((*dut_.Find(lease->id))->version, 5u);
+  now_ += std::chrono::seconds(1);
+  const absl::Status gone = dut_.Find(lease->id).status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(gone));
+  EXPECT_EQ(ReasonOf(gone), "LEASE_GONE");
+  EXPECT_TRUE(absl::IsFailedPrecondition(dut_.Renew(lease->id, std::chrono::seconds(9)).status()));
+}
+
+TEST_F(LeasesTest, RenewalCountsFromNow) {
+  const auto lease = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
+  now_ += std::chrono::seconds(9);
+  ASSERT_TRUE(dut_.Renew(lease->id, std::chrono::seconds(10)).ok());
+  now_ += std::chrono::seconds(9);
+  EXPECT_TRUE(dut_.Find(lease->id).ok());
+}
+
+TEST_F(LeasesTest, IsGrantedAtMostTheLongestTime) {
+  EXPECT_EQ(dut_.Acquire(Scene(), std::chrono::hours(1), "planner")->ttl, std::chrono::seconds(60));
+}
+
+TEST_F(LeasesTest, RefusesMoreThanAllowedUntilOneEnds) {
+  const auto first = dut_.Acquire(Scene(), std::chrono::seconds(10), "planner");
+  ASSERT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(
+      dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").status()));
+  dut_.Release(first->id);
+  EXPECT_TRUE(dut_.Acquire(Scene(), std::chrono::seconds(10), "planner").ok());
+}
+
+TEST_F(LeasesTest, TheVersionIsFreedWithTheLease) {
+  ScenePtr scene = Scene();
+  const std::weak_ptr<const SceneSnapshot> watch = scene;
+  const auto lease = dut_.Acquire(std::move(scene), std::chrono::seconds(10), "planner");
+  EXPECT_FALSE(watch.expired());
+  dut_.Release(lease->id);
+  EXPECT_TRUE(watch.expired());
 }
 
 }  // namespace
