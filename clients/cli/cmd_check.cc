@@ -10,7 +10,7 @@
 #include "cli/check_flags.h"
 #include "cli/check_output.h"
 #include "cli/commands.h"
-#include "cli/robot_notes.h"
+#include "cli/mesh_notes.h"
 
 namespace clearway::cli {
 namespace {

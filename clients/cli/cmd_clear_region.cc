@@ -1,4 +1,6 @@
 // clearway clear-region: makes a part of the static map unknown again.
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -51,8 +53,10 @@ std::string AsText(const ClearedRegion& cleared, const Aabb& box_W) {
   const std::string box = absl::StrCat("from ", Point(box_W.min), " to ", Point(box_W.max), " m");
   const std::string version = absl::StrCat(" in scene version ", cleared.version, "\n");
   if (cleared.voxels_in_box == 0) return absl::StrCat("no voxel cleared ", box, version);
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();  // or more
+  const bool is_countable = cleared.voxels_in_box < kMost;
   return absl::StrCat("the static map is unknown ", box, version, Grouped(cleared.voxels_cleared),
-                      " of ", Grouped(cleared.voxels_in_box),
+                      is_countable ? absl::StrCat(" of ", Grouped(cleared.voxels_in_box)) : "",
                       " voxels cleared; the others were unknown before\n");
 }
 

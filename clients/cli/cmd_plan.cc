@@ -13,8 +13,8 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/left_out_text.h"
+#include "cli/mesh_notes.h"
 #include "cli/message.h"
-#include "cli/robot_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
 #include "cli/text.h"
@@ -70,7 +70,7 @@ std::string WhatBlocks(const StateAnswer& blocker, const Scenario& scenario) {
     case SpaceStatus::kUnknownSpace:
       return "unknown space";
     default:
-      return "the static map";
+      return "the static map or a keep-out box";
   }
 }
 
@@ -198,6 +198,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   if (!scenario->note.empty()) terminal.err << "note: " << scenario->note << "\n";
   if (!scenario->left_out.Empty()) terminal.err << "warning: " << LeftOutText(scenario->left_out);
   PrintRobotNotes(scenario->robot, terminal.err);
+  PrintObjectNotes(scenario->objects, terminal.err);
   const SceneClient client(*connection);
   const auto status = client.GetStatus();
   if (!status.ok()) return status.status();

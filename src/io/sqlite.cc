@@ -84,6 +84,10 @@ absl::StatusOr<SqliteDatabase> SqliteDatabase::Open(const std::filesystem::path&
   sqlite3* handle = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
   SqliteDatabase database(handle);
+  const auto folder = std::filesystem::absolute(path).parent_path();
+  if (code == SQLITE_CANTOPEN && !std::filesystem::is_directory(folder)) {
+    return absl::NotFoundError(absl::StrCat("there is no folder ", folder.string()));
+  }
   if (code != SQLITE_OK) return ErrorOf(handle, code);
   if (mode == Mode::kReadOnly) {
     sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);

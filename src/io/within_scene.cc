@@ -47,7 +47,7 @@ std::string AloneText(const RecordedPose& pose, const RecordedPose& next) {
   };
   return absl::StrCat("the stamp ", ToNanoseconds(pose.stamp), " ns lies ",
                       seconds(std::chrono::abs(pose.stamp - next.stamp)),
-                      " s from the next frame's; the limit is ",
+                      " s from that of the frame next to it; the limit is ",
                       seconds(FrameLimits().max_stamp_jump), " s");
 }
 

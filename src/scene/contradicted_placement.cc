@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "scene/late_frame.h"
+#include "scene/passed_through.h"
 #include "scene/prediction_gate.h"
 #include "scene/report_issue.h"
 
@@ -14,6 +15,7 @@ std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const Lab
                                            const ObjectClue& clue) {
   constexpr double kSlack_m = 1;
   constexpr double kManySigmas = 3;  // of a pose that is mended
+  constexpr double kManyBounds = 3;  // where the points fit the prediction
   // What comes into sight at the other end of an object may lie so far from what was seen of it.
   constexpr double kLongestGap_m = 30;
   // A few points may all be labelled wrongly.
@@ -25,16 +27,28 @@ std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const Lab
   const std::vector<Eigen::Vector3d> points_W = EndsOf(cloud, clue.points);
   const GateOffset stated = OffsetFrom(object, *T_W_O, points_W);
   const double off_m = stated.off_W.norm();
-  const double near_m = stated.half_size_m + kSlack_m + kManySigmas * params.object_pose_error_m;
-  if (off_m <= near_m) return std::nullopt;
+  if (off_m == 0) return std::nullopt;
+  const auto contradicted = [&](double limit_m) {
+    return ObjectIssue{ObjectIssueKind::kContradicted, object.id, off_m, limit_m};
+  };
+  const double slack_m = kManySigmas * params.object_pose_error_m;
+  const double near_m = stated.half_size_m + kSlack_m + slack_m;
   const bool is_far = off_m > near_m + kLongestGap_m && clue.points.size() >= kManyPoints;
+  if (is_far) return contradicted(near_m);
+
   const Pose T_W_predicted = PredictPose(object, stamp, params.horizon).T_W_O;
   const double bound_m = object.bound.At(ToSeconds(stamp - object.LastPose().stamp));
   const GateOffset predicted = OffsetFrom(object, T_W_predicted, points_W);
-  const bool is_as_predicted =
-      MeetsPrediction(predicted, bound_m) && 2 * predicted.off_W.norm() < off_m;
-  if (!is_far && !is_as_predicted) return std::nullopt;
-  return ObjectIssue{ObjectIssueKind::kContradicted, object.id, off_m, near_m};
+  const double predicted_off_m = predicted.off_W.norm();
+  const bool is_as_predicted = MeetsPrediction(predicted, bound_m) && 2 * predicted_off_m < off_m;
+  if (off_m > near_m && is_as_predicted) return contradicted(near_m);
+  const double seldom_m = kManyBounds * bound_m + slack_m;
+  if (off_m > seldom_m && predicted_off_m == 0) return contradicted(seldom_m);
+  const double beside_m = 2 * stated.half_size_m + slack_m;
+  if (off_m > beside_m && IsPassedThrough(object, *T_W_O, cloud, params)) {
+    return contradicted(beside_m);
+  }
+  return std::nullopt;
 }
 
 }  // namespace

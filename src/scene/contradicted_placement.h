@@ -8,10 +8,14 @@
 
 namespace clearway {
 
-// Takes motions and poses out of the clues that put an object metres from its points, where the
-// points are as predicted, or tens of metres: its map would grow by what lies between. The report
-// names them. Without them an object is placed by prediction and its points, or begins anew
-// (PlaceByPoints).
+// Takes motions and poses out of the clues that put an object away from its points: its map would
+// grow by what lies between. By how much is too far depends on what else speaks against them:
+// - nothing: tens of metres, since the other end of a long object may come into sight;
+// - the points fit the object where it was predicted: three times the 95 % bound;
+// - they are nearer to that, within the bound: half the object's size and 1 m;
+// - rays pass through it where it is said to be: its size.
+// The report names them. Without them an object is placed by prediction and its points, or begins
+// anew (PlaceByPoints).
 void LeaveOutContradicted(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
                           const SceneParams& params, ClueMap& clues, FrameReport& report);
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
 #include "clearway/geometry/hull.h"
+#include "clearway/geometry/mesh_validation.h"
+#include "clearway/geometry/solid_mesh.h"
 #include "clearway/map/voxel_key.h"
 #include "scene/group_motion.h"
 
@@ -78,12 +81,11 @@ absl::Status CheckFuture(const std::string& field, const std::vector<StampedPose
   return absl::OkStatus();
 }
 
-// Of a mesh, its triangles; the shapes without one have none.
-std::size_t TriangleCount(const Shape& shape) {
-  std::shared_ptr<const Mesh> mesh;
-  if (const auto* convex = std::get_if<ConvexPolytope>(&shape)) mesh = convex->mesh;
-  if (const auto* triangles = std::get_if<TriangleMesh>(&shape)) mesh = triangles->mesh;
-  return mesh == nullptr ? 0 : mesh->triangles.size();
+// Null for a shape without one.
+std::shared_ptr<const Mesh> MeshOf(const Shape& shape) {
+  if (const auto* convex = std::get_if<ConvexPolytope>(&shape)) return convex->mesh;
+  if (const auto* triangles = std::get_if<TriangleMesh>(&shape)) return triangles->mesh;
+  return nullptr;
 }
 
 absl::Status CheckVelocity(const Twist& velocity_O) {
@@ -127,29 +129,46 @@ std::vector<StampedPose> Normalized(const std::vector<StampedPose>& poses) {
   return normalized;
 }
 
-// What the scene keeps of the shape: a convex mesh is a polytope.
+// What the scene keeps of the shape: a convex mesh is a polytope, without its holes.
 Shape Kept(const Shape& shape) {
-  const auto* triangles = std::get_if<TriangleMesh>(&shape);
-  return triangles == nullptr ? shape : ConvexPolytope{triangles->mesh};
+  const std::shared_ptr<const Mesh> mesh = MeshOf(shape);
+  if (mesh == nullptr) return shape;
+  const SolidMesh solid = SolidMeshOf(mesh);
+  if (solid.note.empty()) return ConvexPolytope{solid.mesh};
+  return ConvexPolytope{std::make_shared<const Mesh>(ConvexHullOf(solid.mesh->vertices))};
+}
+
+Mesh TurnedRound(Mesh mesh) {
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+// Nobody knows which side of an open surface is the outer one.
+absl::Status ValidateConvex(const std::string& field, const Mesh& mesh) {
+  const absl::Status status = ValidateHull(field, mesh);
+  return status.ok() || ValidateHull(field, TurnedRound(mesh)).ok() ? absl::OkStatus() : status;
 }
 
 }  // namespace
 
 absl::Status ValidateGivenShape(const std::string& field, const Shape& shape) {
-  if (const std::size_t count = TriangleCount(shape); count > kMaxGivenTriangles) {
-    return absl::ResourceExhaustedError(
-        absl::StrCat(field, ": ", count, " triangles; the limit is ", kMaxGivenTriangles));
+  const bool has_mesh =
+      std::holds_alternative<ConvexPolytope>(shape) || std::holds_alternative<TriangleMesh>(shape);
+  if (!has_mesh) return Validate(field, shape);
+  const std::shared_ptr<const Mesh> mesh = MeshOf(shape);
+  if (mesh != nullptr && mesh->triangles.size() > kMaxGivenTriangles) {
+    return absl::ResourceExhaustedError(absl::StrCat(
+        field, ": ", mesh->triangles.size(), " triangles; the limit is ", kMaxGivenTriangles));
   }
-  const auto* triangles = std::get_if<TriangleMesh>(&shape);
-  const absl::Status status =
-      Validate(field, triangles == nullptr ? shape : ConvexPolytope{triangles->mesh});
+  const std::string mesh_field =
+      field + (std::holds_alternative<ConvexPolytope>(shape) ? ".convex" : ".mesh");
+  if (auto status = ValidateMesh(mesh_field, mesh); !status.ok()) return status;
+  const absl::Status status = ValidateConvex(mesh_field, *SolidMeshOf(mesh).mesh);
   if (status.ok()) return status;
-  return absl::Status(
-      status.code(),
-      absl::StrCat(status.message(), triangles == nullptr
-                                         ? ""
-                                         : "; a mesh that is not convex has to be given in convex "
-                                           "parts, each an object of its own"));
+  return absl::Status(status.code(),
+                      absl::StrCat(status.message(),
+                                   "; a mesh that is not convex has to be given in convex parts, "
+                                   "each an object of its own"));
 }
 
 absl::Status AddGiven(const GivenObject& given, const SceneParams& params,

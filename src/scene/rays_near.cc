@@ -63,6 +63,7 @@ ClippedRays RaysWithin(const Aabb& box_O, const Pose& T_W_O, const LabelledCloud
     rays.origins_O.push_back((origin_O + begin * (end_O - origin_O)).cast<float>());
     rays.ends_O.push_back((origin_O + end * (end_O - origin_O)).cast<float>());
     rays.kinds.push_back(returned ? RayEnd::kBlock : RayEnd::kClear);
+    rays.of.push_back(static_cast<std::uint32_t>(i));
   }
   return rays;
 }

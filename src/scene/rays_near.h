@@ -1,6 +1,7 @@
 // The rays of a frame that pass near an object.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "clearway/scene/moving_object.h"
@@ -11,7 +12,8 @@ namespace clearway {
 // In O, cut to the part that lies in a box.
 struct ClippedRays {
   std::vector<Eigen::Vector3f> ends_O, origins_O;
-  std::vector<RayEnd> kinds;  // kBlock where something is in the box, kClear at its border
+  std::vector<RayEnd> kinds;      // kBlock where something is in the box, kClear at its border
+  std::vector<std::uint32_t> of;  // which rays of the frame they are, as indices into its cloud
 
   RayCloud Cloud() const { return {ends_O, kinds, origins_O}; }
 };

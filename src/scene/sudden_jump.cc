@@ -17,7 +17,7 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   // People turn on the spot within half a second.
   constexpr double kSlack_rad = 1.5, kTurnRate_radps = 3;
   constexpr std::size_t kFewPoints = 3;
-  if (clue.points.size() < kFewPoints || !object.velocity_O || object.bridged) return std::nullopt;
+  if (clue.points.size() < kFewPoints || object.bridged) return std::nullopt;
   const std::optional<Pose> stated = StatedPose(object, clue, stamp, params);
   if (!stated) return std::nullopt;
   const PredictedPose predicted = PredictPose(object, stamp, params.horizon);
@@ -28,7 +28,9 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   const double off_m = (*stated * center_O - predicted.T_W_O * center_O).norm();
   const double limit_m = kManyBounds * object.bound.At(ahead_s) + kSlack_m +
                          0.5 * kAcceleration_mps2 * ahead_s * ahead_s;
-  if (off_m > limit_m) return ObjectIssue{ObjectIssueKind::kJumped, object.id, off_m, limit_m};
+  if (object.velocity_O && off_m > limit_m) {
+    return ObjectIssue{ObjectIssueKind::kJumped, object.id, off_m, limit_m};
+  }
   const double turn_rad = stated->rotation.angularDistance(predicted.T_W_O.rotation);
   const double limit_rad = kSlack_rad + kTurnRate_radps * ahead_s;
   // A box turned round tells where the object is all the same.

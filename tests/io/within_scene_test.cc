@@ -150,9 +150,10 @@ TEST(WithinScene, AStampAloneAtEitherEndIsLeftOut) {
   const LidarFolder first = Opened(
       {.stamps_s = {0, 1'700'000'000, 1'700'000'001, 1'700'000'002, 1'700'000'003, 1'700'000'004}});
   EXPECT_THAT(NumbersOf(first), ElementsAre(1, 2, 3, 4, 5));
-  EXPECT_THAT(first.frames.left_out->reasons,
-              ElementsAre("frame 0: the stamp 0 ns lies 1700000000 s from the next frame's; the "
-                          "limit is 3600 s"));
+  EXPECT_THAT(
+      first.frames.left_out->reasons,
+      ElementsAre("frame 0: the stamp 0 ns lies 1700000000 s from that of the frame next to "
+                  "it; the limit is 3600 s"));
   ExpectApplied(first);
   const LidarFolder last = Opened({.stamps_s = {0, 1, 2, 3, 4, 4'000'000'000}});
   EXPECT_THAT(NumbersOf(last), ElementsAre(0, 1, 2, 3, 4));

@@ -68,6 +68,24 @@ TEST_F(ContradictedPlacement, AWrongMotionIsLeftOutAndNamed) {
   }
 }
 
+// Less than the van's size, but where it was predicted the points fit.
+TEST_F(ContradictedPlacement, SoIsOneThatIsALittleWrong) {
+  for (const double wrong_m : {1.0, -0.8, 1.6}) {
+    dut_.Reset();
+    ShowMoving(false);
+    const double length_m = Length();
+    Frame frame = Showing(0.6, 5.6);
+    frame.motions.push_back({5, Pose::Translation(0.1 + wrong_m, 0, 0), At(0.5)});
+    const FrameReport report = Applied(frame);
+    ASSERT_EQ(report.issues.size(), 1u) << wrong_m;
+    EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kContradicted);
+    EXPECT_NEAR(report.issues[0].value, std::abs(wrong_m), 0.15);
+    EXPECT_LT(report.issues[0].limit, 0.8);
+    EXPECT_NEAR(Length(), length_m, 1e-9) << wrong_m;
+    EXPECT_NEAR(CenterX(), 5.6, 0.1) << wrong_m;
+  }
+}
+
 TEST_F(ContradictedPlacement, SoIsAWrongPoseAndTheNextCounts) {
   ShowMoving(true);
   Frame wrong = Showing(0.6, 5.6);
@@ -109,6 +127,43 @@ TEST_F(ContradictedPlacement, TheOtherEndOfAnObjectIsItsOwn) {
   rear.poses.push_back({5, Pose::Translation(14, 0, 1)});
   EXPECT_TRUE(Applied(rear).issues.empty());
   EXPECT_GT(Length(), 15);
+}
+
+// The id goes on to another van, with the motion of that one. Rays go on through where it was.
+TEST_F(ContradictedPlacement, WhatIsSeenThroughBeginsAnew) {
+  ShowMoving(false);
+  Frame frame = Showing(0.6, 17.6);
+  for (double y = -3; y <= 3; y += 0.2) {
+    for (double z = 0; z <= 6; z += 0.2) AddPoint(frame, kStaticLabel, {30, y, z});
+  }
+  frame.motions.push_back({5, Pose::Translation(0.1, 0, 0), At(0.5)});
+  const FrameReport report = Applied(frame);
+  ASSERT_EQ(report.issues.size(), 2u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kContradicted);
+  EXPECT_NEAR(report.issues[0].value, 12, 0.3);
+  EXPECT_EQ(report.issues[1].kind, ObjectIssueKind::kRestarted);
+  EXPECT_LT(Length(), 4.5);
+  EXPECT_NEAR(CenterX(), 17.6, 0.2);
+}
+
+// Two tracks swap their ids; each goes on with the motion of what it now is.
+TEST_F(ContradictedPlacement, WhereAnotherObjectStandsItIsNot) {
+  const auto showing = [](double seconds, ObjectId near, ObjectId far) {
+    Frame frame = FrameAt(seconds);
+    AddObject(frame, near, Pose::Translation(5 + seconds, 0, 1), BoxSurface({4, 2, 2}, 0.2));
+    AddObject(frame, far, Pose::Translation(17 + seconds, 0, 1), BoxSurface({4, 2, 2}, 0.2));
+    for (const ObjectId id : {near, far}) {
+      if (seconds == 0) continue;
+      frame.motions.push_back({id, Pose::Translation(0.1, 0, 0), At(seconds - 0.1)});
+    }
+    return frame;
+  };
+  for (int k = 0; k < 6; ++k) EXPECT_TRUE(Applied(showing(0.1 * k, 5, 6)).issues.empty());
+  const FrameReport report = Applied(showing(0.6, 6, 5));
+  EXPECT_EQ(report.objects_restarted, 2u);
+  EXPECT_LT(Length(), 4.5);
+  EXPECT_NEAR(CenterX(), 17.6, 0.2);
+  EXPECT_TRUE(Applied(showing(0.7, 6, 5)).issues.empty());
 }
 
 TEST_F(ContradictedPlacement, AMotionThatThePointsConfirmCounts) {

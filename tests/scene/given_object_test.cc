@@ -157,12 +157,22 @@ TEST_F(GivenObjectTest, ConvexMeshesAreTakenOthersRefused) {
   given.shape = TriangleMesh{convex};
   ASSERT_TRUE(dut_.AddObject(given).ok());
   EXPECT_EQ(*Find(7)->given_shape, Shape(ConvexPolytope{convex}));
+  auto turned = std::make_shared<Mesh>(*convex);
+  for (auto& triangle : turned->triangles) std::swap(triangle[0], triangle[1]);
+  turned->triangles.pop_back();  // and a hole
+  for (const Shape& shape : {Shape(TriangleMesh{turned}), Shape(ConvexPolytope{turned})}) {
+    given.id += 10;
+    given.shape = shape;
+    const absl::Status status = dut_.AddObject(given);
+    ASSERT_TRUE(status.ok()) << status;
+    EXPECT_EQ(std::get<ConvexPolytope>(*Find(given.id)->given_shape).mesh->triangles.size(), 12u);
+  }
   auto dented = std::make_shared<Mesh>(*convex);
   dented->vertices.emplace_back(0, 0, 0);
   dented->triangles.back()[2] = 8;
   given.id = 8;
   given.shape = TriangleMesh{dented};
-  ExpectRefused(given, "shape.convex");
+  ExpectRefused(given, "shape.mesh.triangles are not convex");
   EXPECT_THAT(std::string(dut_.AddObject(given).message()), HasSubstr("in convex parts"));
   dented->triangles.resize(kMaxGivenTriangles + 1, {0, 1, 2});
   ExpectRefused(given, "shape: 2001 triangles", absl::StatusCode::kResourceExhausted);

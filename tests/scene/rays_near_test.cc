@@ -46,6 +46,7 @@ TEST_P(RaysWithinTest, AreThoseThatTheBoxClips) {
       const auto [begin, end] = Clip(box_O, origin_O, ray_O, {0, 1});
       if (begin > end) continue;
       ASSERT_LT(found, dut.ends_O.size());
+      EXPECT_EQ(dut.of[found], i);
       EXPECT_EQ(dut.origins_O[found], (origin_O + begin * ray_O).cast<float>());
       EXPECT_EQ(dut.ends_O[found], (origin_O + end * ray_O).cast<float>());
       const bool is_blocked = end == 1 && cloud.kinds[i] != RayEnd::kClear;

@@ -102,6 +102,19 @@ TEST_F(SuddenJump, ABoxThatIsTurnedRoundIsLeftOut) {
   EXPECT_LT(dut_.Publish()->FindObject(1)->solid->box_O.Size().x(), 4.5);
 }
 
+// Nobody knows yet which way it goes, but nothing turns like that.
+TEST_F(SuddenJump, SoIsOneOfTheFirstMotion) {
+  Applied(Showing(0, {}, {}, false));
+  Frame frame = Showing(1, {}, {}, false);
+  const Pose turn{Eigen::Quaterniond(Eigen::AngleAxisd(2.75, Eigen::Vector3d::UnitZ())),
+                  Eigen::Vector3d::Zero()};
+  frame.motions[0].H_W = CarAt(1, 0) * turn * Inverse(CarAt(0, 0));
+  const FrameReport report = Applied(frame);
+  ASSERT_EQ(report.issues.size(), 1u);
+  EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kTurnTooLarge);
+  EXPECT_LT(dut_.Publish()->FindObject(1)->solid->box_O.Size().x(), 4.5);
+}
+
 // As hard as anything on wheels can: 10 m/s^2, and a quarter turn within half a second.
 TEST_F(SuddenJump, WhatBrakesAndTurnsIsNoJump) {
   Pose T_W_B = CarAt(0, 0);

@@ -1,0 +1,14 @@
+// Whether a frame sees through an object where somebody says it is.
+#pragma once
+
+#include "clearway/scene/moving_object.h"
+#include "scene/labelled_cloud.h"
+
+namespace clearway {
+
+// Whether the object cannot be at T_W_O: most rays that meet its occupied voxels there go on
+// through them, or end there on another object. False if only a few rays meet them.
+bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O, const LabelledCloud& cloud,
+                     const SceneParams& params);
+
+}  // namespace clearway
