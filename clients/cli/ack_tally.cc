@@ -21,7 +21,10 @@ FrameSender::OnAck AckTally::OnAck() {
     }
     counts_.points += sent.points;
     if (answer.ok()) {
-      if (!answer->repeated_answer) counts_.objects.Add(answer->report, sent.stamp);
+      if (!answer->repeated_answer) {
+        counts_.objects.Add(answer->report, sent.stamp);
+        counts_.of_points.Add(answer->report);
+      }
       counts_.repeated += answer->repeated_answer ? 1 : 0;
       const Duration late_by = answer->report.late_by;
       counts_.late += late_by > Duration::zero() ? 1 : 0;

@@ -8,6 +8,7 @@
 
 #include "clearway/client/frame_sender.h"
 #include "cli/object_notes.h"
+#include "cli/point_notes.h"
 
 namespace clearway::cli {
 
@@ -25,6 +26,7 @@ class AckTally {
     PushAck last;              // of the newest version that was named
     std::size_t lost = 0;      // applied by a server that has restarted since
     ObjectNotes objects;
+    PointNotes of_points;
     absl::Status first_refusal;  // OK if there is none
     std::string first_refused_sensor;
     std::uint64_t first_refused_sequence = 0;

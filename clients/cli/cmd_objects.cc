@@ -7,6 +7,7 @@
 #include "clearway/report/table.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/mesh_notes.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
 #include "cli/text.h"
@@ -159,13 +160,14 @@ void PrintText(std::ostream& out, const ObjectList& list, const ObjectRows& rows
 }
 
 // Whatever of it fails, what came before is done.
-absl::Status Change(const SceneClient& client, const Flags& flags) {
+absl::Status Change(const SceneClient& client, const Flags& flags, std::ostream& err) {
   if (!flags.remove.empty()) {
     if (auto removed = client.RemoveObjects(flags.remove); !removed.ok()) return removed.status();
   }
   if (flags.add.empty()) return absl::OkStatus();
   auto objects = LoadObjects(flags.add);
   if (!objects.ok()) return objects.status();
+  PrintObjectNotes(*objects, err);
   const auto status = client.GetStatus();
   if (!status.ok()) return status.status();
   Delay(status->stamp - Time(), *objects);
@@ -176,7 +178,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   const auto connection = Connect(flags.server);
   if (!connection.ok()) return connection.status();
   const SceneClient client(*connection);
-  if (auto status = Change(client, flags); !status.ok()) return status;
+  if (auto status = Change(client, flags, terminal.err); !status.ok()) return status;
   const auto list = client.ListObjects();
   if (!list.ok()) return list.status();
   ObjectRows rows = RowsOf(*list);

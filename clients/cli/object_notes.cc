@@ -40,8 +40,8 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
   }
   switch (issue.kind) {
     case ObjectIssueKind::kTurnTooLarge:
-      return absl::StrCat("motion left out at ", when, ": turns by ", value, " rad (limit ", limit,
-                          " rad); try --objects poses");
+      return absl::StrCat("motion or pose left out at ", when, ": turns by ", value, " rad (limit ",
+                          limit, " rad)");
     case ObjectIssueKind::kMotionTooFar:
       return absl::StrCat("motion left out at ", when, ": leads to a coordinate of ", value,
                           " m (limit ", limit, " m)");
@@ -52,8 +52,8 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
       return absl::StrCat("motion or pose left out at ", when, ": moves at ", value, " m/s (limit ",
                           limit, " m/s)");
     case ObjectIssueKind::kContradicted:
-      return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
-                          " m from its points (limit ", limit, " m)");
+      return absl::StrCat("motion, pose or given place not used at ", when, ": it is ", value,
+                          " m from the object's points (limit ", limit, " m)");
     case ObjectIssueKind::kJumped:
       return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
                           " m from where it was predicted (limit ", limit, " m)");

@@ -22,6 +22,7 @@ Json SummaryJson(const AckTally::Counts& counts, const FrameSource& source,
                {"elapsed_s", seconds},
                {"left_out", ToJson(*source.left_out)}};
   json["reports"] = counts.objects.AsJson();
+  json["reports"]["points"] = counts.of_points.AsJson();
   if (counts.refused > 0) {
     json["first_refusal"] = absl::StrCat(absl::StatusCodeToString(counts.first_refusal.code()),
                                          ": ", counts.first_refusal.message());
@@ -48,6 +49,7 @@ void PrintSummary(std::ostream& out, const AckTally::Counts& counts) {
     out << Plural(counts.repeated, "frame")
         << " had been sent before and changed nothing ('clearway reset' starts over)\n";
   }
+  for (const std::string& line : counts.of_points.Lines()) out << line << "\n";
   for (const std::string& line : counts.objects.Lines()) out << line << "\n";
 }
 

@@ -65,6 +65,9 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
     if (!corners.ok()) return corners.status();
     if (corners->size() != 2) return fields.Error("area_m", "expected two corners");
     task.area_W = {(*corners)[0], (*corners)[1]};
+    if (!((*corners)[0].array() <= (*corners)[1].array()).all()) {
+      return fields.Error("area_m", "expected the lowest corner first, then the highest");
+    }
   }
   for (const auto& [name, number] :
        {std::pair{"max_speed_mps", &task.max_speed_mps},

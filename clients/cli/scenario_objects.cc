@@ -42,6 +42,9 @@ absl::Status ParseMotion(const JsonFields& fields, const Json& value, GivenObjec
     object.velocity_O = Twist{Eigen::Vector3d::Zero(), *velocity};
   }
   if (!fields.Has("future")) return absl::OkStatus();
+  if (object.velocity_O) {
+    return fields.Error("future", "the object has velocity_mps, too; give one of them");
+  }
   const auto list = fields.List("future");
   if (!list.ok()) return list.status();
   for (const Json& item : value.at("future")) {

@@ -214,9 +214,12 @@ absl::StatusOr<CloudPoints> ReadAscii(const std::string& name, std::string_view 
 }  // namespace
 
 ObjectId LabelReader::LabelOf(double value, const std::string& where, std::size_t i) {
+  // Of fields of 32 and of 16 bits.
   constexpr double kUnsignedMinusOne = std::numeric_limits<std::uint32_t>::max();
+  constexpr double kShortMinusOne = std::numeric_limits<std::uint16_t>::max();
   constexpr double kMost = std::numeric_limits<ObjectId>::max();
-  if (std::isnan(value) || value < 0 || value == kUnsignedMinusOne) return kIgnoreLabel;
+  const bool is_minus_one = value == kUnsignedMinusOne || value == kShortMinusOne;
+  if (std::isnan(value) || value < 0 || is_minus_one) return kIgnoreLabel;
   if (value <= kMost && value == std::floor(value)) return static_cast<ObjectId>(value);
   if (status_.ok()) {
     status_ = absl::InvalidArgumentError(

@@ -72,6 +72,20 @@ std::vector<RecordedPose> UsablePoses(const std::vector<RecordedPose>& poses, Le
   return usable;
 }
 
+// No sensor takes a thousand scans a second: such stamps are of another unit, and nothing in the
+// recording would have a velocity.
+absl::Status CheckUnit(const std::vector<RecordedPose>& poses) {
+  constexpr std::size_t kFew = 3;
+  constexpr Duration kShortest = std::chrono::milliseconds(1);
+  if (poses.size() < kFew) return absl::OkStatus();
+  const Duration mean =
+      (poses.back().stamp - poses.front().stamp) / static_cast<std::int64_t>(poses.size() - 1);
+  if (mean == Duration::zero() || mean >= kShortest) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("the stamps of ", poses.size(), " frames are ", mean.count(),
+                   " ns apart on average; are they in microseconds or milliseconds?"));
+}
+
 // The frames of the others. Far boxes of frames that count go to left_out.
 RowsLeftOut RowsBut(const std::vector<RecordedPose>& usable, const LidarFolder& folder,
                     LeftOut& left_out) {
@@ -109,6 +123,10 @@ void LeaveOut(const RowsLeftOut& rows, LidarFolder& folder) {
 absl::StatusOr<LidarFolder> WithinScene(LidarFolder folder) {
   LeftOut of_scene;
   const std::vector<RecordedPose> usable = UsablePoses(folder.poses, of_scene);
+  if (auto status = CheckUnit(usable); !status.ok()) {
+    return absl::Status(status.code(),
+                        absl::StrCat(folder.frames.description, ": ", status.message()));
+  }
   const RowsLeftOut rows = RowsBut(usable, folder, of_scene);
   if (of_scene.Empty()) return folder;
   if (!folder.frames_without && !usable.empty()) {

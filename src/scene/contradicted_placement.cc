@@ -1,54 +1,102 @@
 #include "scene/contradicted_placement.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "scene/late_frame.h"
-#include "scene/passed_through.h"
 #include "scene/prediction_gate.h"
+#include "scene/ray_evidence.h"
 #include "scene/report_issue.h"
 
 namespace clearway {
 namespace {
 
+// An object's points of a frame, and where the frame says that it is.
+struct Sight {
+  const LabelledCloud& cloud;
+  std::span<const std::uint32_t> points;
+  std::vector<Eigen::Vector3d> points_W;
+  Pose T_W_O;
+  GateOffset offset;  // from there
+};
+
+// What they are off by, and more than what, by all that speaks against that pose.
+struct Excess {
+  double off_m = 0, limit_m = 0;
+};
+
+// By the prediction: the points fit the object there, or better.
+std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight& sight, Time stamp,
+                                        double near_m, double mended_m, const SceneParams& params) {
+  constexpr double kManyBounds = 3;
+  const double off_m = sight.offset.off_W.norm();
+  const Pose T_W_predicted = PredictPose(object, stamp, params.horizon).T_W_O;
+  const double bound_m = object.bound.At(ToSeconds(stamp - object.LastPose().stamp));
+  const GateOffset predicted = OffsetFrom(object, T_W_predicted, sight.points_W);
+  const double predicted_off_m = predicted.off_W.norm();
+  const bool is_as_predicted = MeetsPrediction(predicted, bound_m) && 2 * predicted_off_m < off_m;
+  if (off_m > near_m && is_as_predicted) return Excess{off_m, near_m};
+  const double two_voxels_m = 2 * object.map_O.grid().resolution_m();
+  if (predicted.wider_m > two_voxels_m) return std::nullopt;
+  // Turned by a right angle, a car spreads beyond its box on both sides.
+  const double beyond_m = 0.5 * sight.offset.wider_m;
+  if (beyond_m > two_voxels_m + mended_m) return Excess{beyond_m, two_voxels_m + mended_m};
+  const double seldom_m = kManyBounds * bound_m + mended_m;
+  const bool is_seldom = off_m > seldom_m && predicted_off_m == 0;
+  return is_seldom ? std::optional(Excess{off_m, seldom_m}) : std::nullopt;
+}
+
+// By rays: they go on through the object, or through what an earlier wrong pose added to it.
+std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight, double mended_m,
+                                  const SceneParams& params) {
+  const double off_m = sight.offset.off_W.norm();
+  const double beside_m = 2 * sight.offset.half_size_m + mended_m;
+  if (off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.cloud, params)) {
+    return Excess{off_m, beside_m};
+  }
+  const double two_voxels_m = 2 * object.map_O.grid().resolution_m() + mended_m;
+  const Eigen::Vector3d growth_O = sight.T_W_O.rotation.conjugate() * sight.offset.off_W;
+  const bool is_smeared =
+      off_m > two_voxels_m &&
+      IsSmeared(object, sight.T_W_O, growth_O, sight.points, sight.cloud, params);
+  return is_smeared ? std::optional(Excess{off_m, two_voxels_m}) : std::nullopt;
+}
+
+std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, Time stamp,
+                               const SceneParams& params) {
+  constexpr double kSlack_m = 1;
+  constexpr double kManySigmas = 3;  // of a pose that is mended
+  // What comes into sight at the other end of an object may lie so far from what was seen of it.
+  constexpr double kLongestGap_m = 30;
+  constexpr std::size_t kManyPoints = 20;
+  const double off_m = sight.offset.off_W.norm();
+  const double mended_m = kManySigmas * params.object_pose_error_m;
+  const double near_m = sight.offset.half_size_m + kSlack_m + mended_m;
+  if (off_m > near_m + kLongestGap_m && sight.points.size() >= kManyPoints) {
+    return Excess{off_m, near_m};
+  }
+  if (auto excess = AgainstPrediction(object, sight, stamp, near_m, mended_m, params)) {
+    return excess;
+  }
+  return off_m > 0 ? AgainstRays(object, sight, mended_m, params) : std::nullopt;
+}
+
 std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const LabelledCloud& cloud,
                                            Time stamp, const SceneParams& params,
                                            const ObjectClue& clue) {
-  constexpr double kSlack_m = 1;
-  constexpr double kManySigmas = 3;  // of a pose that is mended
-  constexpr double kManyBounds = 3;  // where the points fit the prediction
-  // What comes into sight at the other end of an object may lie so far from what was seen of it.
-  constexpr double kLongestGap_m = 30;
-  // A few points may all be labelled wrongly.
-  constexpr std::size_t kFewPoints = 3, kManyPoints = 20;
+  constexpr std::size_t kFewPoints = 3;  // may all be labelled wrongly
   if (clue.points.size() < kFewPoints) return std::nullopt;
   const std::optional<Pose> T_W_O = StatedPose(object, clue, stamp, params);
   if (!T_W_O) return std::nullopt;
-
-  const std::vector<Eigen::Vector3d> points_W = EndsOf(cloud, clue.points);
-  const GateOffset stated = OffsetFrom(object, *T_W_O, points_W);
-  const double off_m = stated.off_W.norm();
-  if (off_m == 0) return std::nullopt;
-  const auto contradicted = [&](double limit_m) {
-    return ObjectIssue{ObjectIssueKind::kContradicted, object.id, off_m, limit_m};
-  };
-  const double slack_m = kManySigmas * params.object_pose_error_m;
-  const double near_m = stated.half_size_m + kSlack_m + slack_m;
-  const bool is_far = off_m > near_m + kLongestGap_m && clue.points.size() >= kManyPoints;
-  if (is_far) return contradicted(near_m);
-
-  const Pose T_W_predicted = PredictPose(object, stamp, params.horizon).T_W_O;
-  const double bound_m = object.bound.At(ToSeconds(stamp - object.LastPose().stamp));
-  const GateOffset predicted = OffsetFrom(object, T_W_predicted, points_W);
-  const double predicted_off_m = predicted.off_W.norm();
-  const bool is_as_predicted = MeetsPrediction(predicted, bound_m) && 2 * predicted_off_m < off_m;
-  if (off_m > near_m && is_as_predicted) return contradicted(near_m);
-  const double seldom_m = kManyBounds * bound_m + slack_m;
-  if (off_m > seldom_m && predicted_off_m == 0) return contradicted(seldom_m);
-  const double beside_m = 2 * stated.half_size_m + slack_m;
-  if (off_m > beside_m && IsPassedThrough(object, *T_W_O, cloud, params)) {
-    return contradicted(beside_m);
-  }
-  return std::nullopt;
+  Sight sight{cloud, clue.points, EndsOf(cloud, clue.points), *T_W_O, {}};
+  sight.offset = OffsetFrom(object, *T_W_O, sight.points_W);
+  const double four_voxels_m = 4 * object.map_O.grid().resolution_m();
+  const bool fits = sight.offset.off_W.isZero(0) && sight.offset.wider_m <= four_voxels_m;
+  const auto excess = fits ? std::nullopt : ExcessOf(object, sight, stamp, params);
+  if (!excess) return std::nullopt;
+  return ObjectIssue{ObjectIssueKind::kContradicted, object.id, excess->off_m, excess->limit_m};
 }
 
 }  // namespace

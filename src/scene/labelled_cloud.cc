@@ -16,6 +16,12 @@ RayEnd KindOf(const Frame& frame, std::size_t i) {
   return frame.labels[i] == kStaticLabel ? RayEnd::kHit : RayEnd::kBlock;
 }
 
+// Where many drivers write returns that were lost. With origins of their own, points at them are
+// points of which the rays are not known.
+bool IsLostReturn(const Frame& frame, std::size_t i) {
+  return frame.origins_S.empty() && frame.points_S[i] == Eigen::Vector3f::Zero();
+}
+
 struct PlacedRay {
   Eigen::Vector3d end_W, origin_W;
 };
@@ -24,7 +30,7 @@ struct PlacedRay {
 std::size_t FrameReport::*ReasonToLeaveOut(const Frame& frame, std::size_t i, const PlacedRay& ray,
                                            const SceneParams& params, const VoxelGrid& grid) {
   if (frame.labels[i] == kIgnoreLabel) return &FrameReport::points_ignored;
-  if (!frame.points_S[i].allFinite() ||
+  if (!frame.points_S[i].allFinite() || IsLostReturn(frame, i) ||
       (!frame.origins_S.empty() && !frame.origins_S[i].allFinite())) {
     return &FrameReport::points_not_finite;
   }
@@ -90,8 +96,8 @@ LabelledCloud PlaceCloud(const Frame& frame, const SceneParams& params, FrameRep
     }
     const PlacedRay ray{ends_W[i % kTogether],
                         one_origin ? T_W_S.translation : T_W_S * frame.origins_S[i].cast<double>()};
-    const bool surely_used =
-        usable_by_place && frame.labels[i] != kIgnoreLabel && usable_W.Contains(ray.end_W);
+    const bool surely_used = usable_by_place && frame.labels[i] != kIgnoreLabel &&
+                             usable_W.Contains(ray.end_W) && !IsLostReturn(frame, i);
     if (!surely_used) {
       if (const auto counter = ReasonToLeaveOut(frame, i, ray, params, grid)) {
         ++(report.*counter);

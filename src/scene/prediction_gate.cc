@@ -51,16 +51,18 @@ GateOffset OffsetFrom(const MovingObject& object, const Pose& T_W_O,
   for (const Eigen::Vector3d& p_W : points_W) points_O.push_back(T_O_W * p_W);
 
   Eigen::Vector3d off_O = Eigen::Vector3d::Zero(), exact_off_O, half_size;
+  double wider_m = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval points = SpreadOf(points_O, axis);
     const Interval box{box_O.min[axis], box_O.max[axis]};
     exact_off_O[axis] = OffsetOf(box, points);
     if (std::abs(exact_off_O[axis]) > 2 * voxel_m) off_O[axis] = exact_off_O[axis];
+    wider_m = std::max(wider_m, points.size() - box.size());
     half_size[axis] = 0.5 * std::min(box.size(), std::max(points.size(), voxel_m));
   }
   const double off_m = off_O.norm();
   return {T_W_O.rotation * off_O, T_W_O.rotation * exact_off_O,
-          off_m == 0 ? 0 : half_size.dot(off_O.cwiseAbs()) / off_m};
+          off_m == 0 ? 0 : half_size.dot(off_O.cwiseAbs()) / off_m, wider_m};
 }
 
 bool MeetsPrediction(const GateOffset& offset, double bound_m) {

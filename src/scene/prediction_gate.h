@@ -16,6 +16,8 @@ struct GateOffset {
   Eigen::Vector3d exact_off_W = Eigen::Vector3d::Zero();
   // Half of the box's extent in that direction, or that of the points if it is less.
   double half_size_m = 0;
+  // By how much the points spread farther than the box, along the axis where it is most.
+  double wider_m = 0;
 };
 
 // The shortest translation of the object at T_W_O, along O's axes, after which its box holds the

@@ -13,23 +13,13 @@
 #include "scene/normalized_frame.h"
 #include "scene/object_groups.h"
 #include "scene/other_ids.h"
+#include "scene/points_of_given.h"
 #include "scene/scene_size.h"
 #include "scene/second_look.h"
 #include "scene/sensor_registration.h"
 
 namespace clearway {
 namespace {
-
-// The points of given objects add nothing to them.
-void LeaveOutPointsOfGiven(const SceneObjects& objects, LabelledCloud& cloud, FrameReport& report) {
-  for (const auto& object : objects) {
-    if (!object->given()) continue;
-    const auto hits = cloud.object_hits.find(object->id);
-    if (hits == cloud.object_hits.end()) continue;
-    report.points_given += hits->second.size();
-    cloud.object_hits.erase(hits);
-  }
-}
 
 // What of the frame says where the object is.
 std::string FieldThatPlaces(const Frame& frame, const MovingObject& object) {
@@ -125,9 +115,9 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
     doubts = LeaveOutDoubtful(scene_.objects, frame.stamp, scene_.params, cloud);
     report.points_doubted = doubts.doubted;
   }
-  LeaveOutPointsOfGiven(scene_.objects, cloud, report);
-  VoxelMap static_map_W = scene_.LastingMap();
   ClueMap clues = CluesOf(frame, cloud);
+  LeaveOutPointsOfGiven(scene_.objects, frame.stamp, scene_.params, cloud, clues, report);
+  VoxelMap static_map_W = scene_.LastingMap();
   ObjectMap objects = Continuing(scene_.objects, cloud, frame.stamp, scene_.params, limits_, clues,
                                  static_map_W, report);
   auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C

@@ -38,7 +38,8 @@ TEST(Recording, RefusesBadOptionsAndPlaces) {
   EXPECT_EQ(RecordingWriter::Create(folder / "a.cwr", options).status().code(),
             absl::StatusCode::kInvalidArgument);
   const auto nowhere = RecordingWriter::Create(folder / "no/such/folder/a.cwr");
-  EXPECT_EQ(nowhere.status().code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(nowhere.status().code(), absl::StatusCode::kNotFound);
+  EXPECT_THAT(std::string(nowhere.status().message()), HasSubstr("there is no folder /"));
   EXPECT_EQ(OpenRecording(folder / "a.cwr").status().code(), absl::StatusCode::kNotFound);
 }
 

@@ -161,6 +161,18 @@ TEST(WithinScene, AStampAloneAtEitherEndIsLeftOut) {
   ExpectApplied(last);
 }
 
+// Nothing would have a velocity.
+TEST(WithinScene, StampsOfAnotherUnitAreRefused) {
+  LidarFolder folder;
+  for (int k = 0; k < 6; ++k) {
+    folder.poses.push_back({k, TimeFromNanoseconds(100'000 * k), Pose()});
+  }
+  const auto dut = WithinScene(std::move(folder));
+  EXPECT_EQ(dut.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(dut.status().message()),
+              HasSubstr("the stamps of 6 frames are 100000 ns apart on average"));
+}
+
 TEST(WithinScene, AStampThatNoSceneTakesIsLeftOut) {
   const LidarFolder dut = Opened({.stamps_s = {0, 1, 2, 3, 4, 9'000'000'000}});
   EXPECT_THAT(NumbersOf(dut), ElementsAre(0, 1, 2, 3, 4));

@@ -22,6 +22,34 @@ class ContradictedPlacement : public testing::Test {
     AddObject(frame, 5, Pose::Translation(x_m, 0, 1), BoxSurface({4, 2, 2}, 0.2));
     return frame;
   }
+  // What of the box's surface a sensor at the origin sees.
+  static std::vector<Eigen::Vector3d> Facing(const Eigen::Vector3d& size_m,
+                                             const Eigen::Vector3d& center_W) {
+    std::vector<Eigen::Vector3d> points = BoxSurface(size_m, 0.2);
+    std::erase_if(points, [&](const Eigen::Vector3d& p) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool on_side = std::abs(p[axis]) > size_m[axis] / 2 - 1e-6;
+        if (on_side && p[axis] * (p[axis] + center_W[axis]) < 0) return false;
+      }
+      return true;
+    });
+    return points;
+  }
+  // Across the way, without the rays that its points hide.
+  static void AddWall(double x_m, double width_m, Frame& frame) {
+    const std::size_t objects = frame.points_S.size();
+    for (double y = -width_m / 2; y <= width_m / 2; y += 0.3) {
+      for (double z = -1; z <= 5; z += 0.3) {
+        const Eigen::Vector3f p = Eigen::Vector3d(x_m, y, z).cast<float>();
+        bool is_hidden = false;
+        for (std::size_t i = 0; i < objects && !is_hidden; ++i) {
+          const Eigen::Vector3f& q = frame.points_S[i];
+          is_hidden = (q.normalized() - p.normalized()).norm() < 0.02f;
+        }
+        if (!is_hidden) AddPoint(frame, kStaticLabel, p.cast<double>());
+      }
+    }
+  }
   FrameReport Applied(const Frame& frame) {
     const auto report = dut_.Apply(frame);
     EXPECT_TRUE(report.ok()) << report.status();
@@ -127,6 +155,70 @@ TEST_F(ContradictedPlacement, TheOtherEndOfAnObjectIsItsOwn) {
   rear.poses.push_back({5, Pose::Translation(14, 0, 1)});
   EXPECT_TRUE(Applied(rear).issues.empty());
   EXPECT_GT(Length(), 15);
+}
+
+// Motions the other way: inverted, or of another frame. Each is off by less than the van's size.
+class WrongWay : public ContradictedPlacement, public testing::WithParamInterface<double> {};
+
+TEST_P(WrongWay, IsLeftOutBeforeTheModelIsThreeTimesAsLong) {
+  const double step_m = GetParam();  // along the way, across what the sensor sees
+  std::size_t left_out = 0;
+  for (int k = 0; k < 30; ++k) {
+    Frame frame = FrameAt(0.1 * k);
+    const Pose T_W_B = Pose::Translation(15, -8 + step_m * k, 1);
+    AddObject(frame, 5, T_W_B, Facing({4, 2, 2}, T_W_B.translation));
+    AddWall(25, 40, frame);
+    if (k > 0) frame.motions.push_back({5, Pose::Translation(0, -step_m, 0), At(0.1 * (k - 1))});
+    left_out += Applied(frame).motions_implausible;
+  }
+  EXPECT_GT(left_out, 10u);
+  EXPECT_LT(Object().solid->box_O.Size().y(), 6.5);
+}
+
+TEST_P(WrongWay, SoIsWhatComesNearer) {
+  const double step_m = GetParam();
+  std::size_t left_out = 0;
+  for (int k = 0; k < 25; ++k) {
+    Frame frame = FrameAt(0.1 * k);
+    const Pose T_W_B = Pose::Translation(30 - step_m * k, 0, 1);
+    AddObject(frame, 5, T_W_B, Facing({4, 2, 2}, T_W_B.translation));
+    if (k > 0) frame.motions.push_back({5, Pose::Translation(step_m, 0, 0), At(0.1 * (k - 1))});
+    left_out += Applied(frame).motions_implausible;
+  }
+  EXPECT_GT(left_out, 10u);
+  EXPECT_LT(Length(), 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowAndFast, WrongWay, testing::Values(0.3, 0.5, 0.9));
+
+// A lorry of 16 m behind a wall with a gap of 4 m: a part of it after the other, both ends cut off.
+TEST_F(ContradictedPlacement, WhatPassesAGapIsAsLongAsItIs) {
+  for (int k = 0; k < 60; ++k) {
+    Frame frame = FrameAt(0.1 * k);
+    const Pose T_W_B = Pose::Translation(15, -12 + 0.5 * k, 1);
+    for (const Eigen::Vector3d& p_B : Facing({2, 16, 2}, T_W_B.translation)) {
+      const Eigen::Vector3d p_W = T_W_B * p_B;
+      const Eigen::Vector3d in_wall_W = 7 / p_W.x() * p_W;
+      const bool is_hidden = std::abs(in_wall_W.y()) > 1;
+      AddPoint(frame, is_hidden ? kStaticLabel : 5, is_hidden ? in_wall_W : p_W);
+    }
+    if (k > 0) frame.motions.push_back({5, Pose::Translation(0, 0.5, 0), At(0.1 * (k - 1))});
+    EXPECT_TRUE(Applied(frame).issues.empty()) << k;
+  }
+  EXPECT_GT(Object().solid->box_O.Size().y(), 15);
+}
+
+// Its poses are turned by a right angle from one frame on.
+TEST_F(ContradictedPlacement, ABoxThatIsTurnedIntoItsWidthIsLeftOut) {
+  ShowMoving(true);
+  const Eigen::Vector3d size_m = Object().solid->box_O.Size();
+  for (int k = 6; k < 12; ++k) {
+    Frame frame = Showing(0.1 * k, 5 + 0.1 * k);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.57, Eigen::Vector3d::UnitZ()));
+    frame.poses.push_back({5, {turn, {5 + 0.1 * k, 0, 1}}});
+    EXPECT_EQ(Applied(frame).motions_implausible, 1u) << k;
+  }
+  EXPECT_LT((Object().solid->box_O.Size() - size_m).norm(), 0.3);
 }
 
 // The id goes on to another van, with the motion of that one. Rays go on through where it was.

@@ -104,6 +104,26 @@ TEST_F(GivenObjectTest, GoesWithoutATraceAndOnlyIfItWasGiven) {
   EXPECT_EQ(dut_.Publish()->Hash(), before);
 }
 
+// Its id is the label of something else: the scene cannot tell of what, but not free.
+TEST_F(GivenObjectTest, PointsElsewhereAreBackgroundAndNamed) {
+  ASSERT_TRUE(dut_.AddObject(Person()).ok());
+  for (const bool with_motion : {false, true}) {
+    Frame frame = FrameAt(with_motion ? 2.1 : 2);
+    for (double y = 0; y < 1; y += 0.1) AddPoint(frame, 7, {12, y, 0.05});
+    if (with_motion) frame.motions = {{7, Pose::Translation(0, 1, 0), At(2)}};
+    const auto report = dut_.Apply(frame);
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report->points_given, 0u);
+    ASSERT_EQ(report->issues.size(), 1u);
+    EXPECT_EQ(report->issues[0].kind, ObjectIssueKind::kContradicted);
+    EXPECT_EQ(report->issues[0].id, 7);
+    EXPECT_GT(report->issues[0].value, 5);
+    EXPECT_EQ(Find(7)->history.size(), 1u);
+    const VoxelMap& map = scene_->static_map_W;
+    EXPECT_EQ(map.State(map.grid().KeyOf({12, 0.5, 0.05})), VoxelState::kOccupied);
+  }
+}
+
 TEST_F(GivenObjectTest, OutlivesItsLifetimeUnseen) {
   ASSERT_TRUE(dut_.AddObject(Person()).ok());
   ASSERT_TRUE(dut_.Apply(FrameAt(100)).ok());

@@ -64,5 +64,19 @@ TEST(PlaceCloud, TheQuickWayIsTheLongWay) {
   }
 }
 
+// A hit there would make the robot's own place occupied.
+TEST(PlaceCloud, PointsAtTheSensorAreLostReturns) {
+  Frame frame;
+  frame.T_W_S = Pose::Translation(3, 2, 1);
+  frame.points_S = {{0, 0, 0}, {0, 0, 1e-6f}, {1, 0, 0}};
+  frame.labels = {kStaticLabel, kStaticLabel, kStaticLabel};
+  FrameReport report;
+  EXPECT_EQ(PlaceCloud(frame, {}, report).ends_W.size(), 2u);
+  EXPECT_EQ(report.points_not_finite, 1u);
+  frame.origins_S = frame.points_S;  // whose rays are not known
+  FrameReport with_origins;
+  EXPECT_EQ(PlaceCloud(frame, {}, with_origins).ends_W.size(), 3u);
+}
+
 }  // namespace
 }  // namespace clearway

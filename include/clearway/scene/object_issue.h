@@ -13,7 +13,7 @@ enum class ObjectIssueKind {
   kMotionTooFar = 2,    // leads to a coordinate of `value` m, beyond FrameLimits::max_coordinate_m
   kMotionConflict = 3,  // another motion or pose of the object under another of its ids counts
   kMotionTooFast = 6,   // moves it at `value` m/s, more than kMaxSpeed_mps
-  kContradicted = 7,    // puts it `value` m from its points, more than `limit` m
+  kContradicted = 7,    // puts it (or the given object lies) `value` m from its points
   kJumped = 8,          // puts it `value` m from where it was predicted, more than `limit` m
   // Its points came without a motion or pose and are not where it was predicted: it was dropped,
   // and a new model with the same id begins.

@@ -25,9 +25,9 @@ struct LabelledCloud;
 // What became of a frame.
 struct FrameReport {
   std::size_t points_used = 0;
-  std::size_t points_ignored = 0;  // label -1
-  std::size_t points_not_finite = 0;
-  std::size_t points_self = 0;  // on the robot's own body
+  std::size_t points_ignored = 0;     // label -1
+  std::size_t points_not_finite = 0;  // or at the sensor, as lost returns are written
+  std::size_t points_self = 0;        // on the robot's own body
   std::size_t points_out_of_bounds = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   // Motions and poses left out as if the frame did not have them: implausible ones (kTurnTooLarge,

@@ -1,5 +1,5 @@
 // Whether a frame sees through an object where it is said to be.
-#include "scene/passed_through.h"
+#include "scene/ray_evidence.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@ using testing_support::BoxSurface;
 using testing_support::FrameAt;
 
 // A cube of 1 m, 5 m ahead of the sensor.
-class PassedThrough : public testing::Test {
+class RayEvidence : public testing::Test {
  protected:
-  PassedThrough() {
+  RayEvidence() {
     Frame frame = FrameAt(0);
     AddObject(frame, 7, T_W_cube_, BoxSurface({1, 1, 1}, 0.1));
     EXPECT_TRUE(builder_.Apply(frame).ok());
@@ -41,14 +41,14 @@ class PassedThrough : public testing::Test {
   MovingObject object_;
 };
 
-TEST_F(PassedThrough, RaysThatGoOnSpeakAgainstIt) {
+TEST_F(RayEvidence, RaysThatGoOnSpeakAgainstIt) {
   Frame frame = FrameAt(0.1);
   AddWall(9, 49, kStaticLabel, frame);
   EXPECT_TRUE(Passes(frame));
   EXPECT_FALSE(Passes(frame, 10));  // they end before it
 }
 
-TEST_F(PassedThrough, ItsOwnPointsSpeakForIt) {
+TEST_F(RayEvidence, ItsOwnPointsSpeakForIt) {
   Frame frame = FrameAt(0.1);
   AddWall(4.5, 49, 7, frame);
   EXPECT_FALSE(Passes(frame));
@@ -57,7 +57,7 @@ TEST_F(PassedThrough, ItsOwnPointsSpeakForIt) {
 }
 
 // Its points may have lost their labels, but not got another object's.
-TEST_F(PassedThrough, BackgroundMayBeThereButNoOtherObject) {
+TEST_F(RayEvidence, BackgroundMayBeThereButNoOtherObject) {
   Frame background = FrameAt(0.1), other = FrameAt(0.1);
   AddWall(4.5, 49, kStaticLabel, background);
   EXPECT_FALSE(Passes(background));
@@ -65,7 +65,7 @@ TEST_F(PassedThrough, BackgroundMayBeThereButNoOtherObject) {
   EXPECT_TRUE(Passes(other));
 }
 
-TEST_F(PassedThrough, AFewRaysSayNothing) {
+TEST_F(RayEvidence, AFewRaysSayNothing) {
   Frame frame = FrameAt(0.1);
   AddWall(9, 4, kStaticLabel, frame);
   EXPECT_FALSE(Passes(frame));
