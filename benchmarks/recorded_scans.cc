@@ -54,7 +54,7 @@ std::vector<Eigen::Vector3f> PointsInWorld(const Frame& frame) {
   std::vector<Eigen::Vector3f> points_W;
   for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
     const Eigen::Vector3f& p_S = frame.points_S[i];
-    if (frame.labels[i] == kIgnoreLabel || !p_S.allFinite()) continue;
+    if (frame.labels[i] == kIgnoreLabel || !p_S.allFinite() || p_S.isZero(0)) continue;
     points_W.push_back((frame.T_W_S * p_S.cast<double>()).cast<float>());
   }
   return points_W;

@@ -13,6 +13,8 @@
 namespace clearway {
 namespace {
 
+constexpr double kSlack_m = 1;
+
 // An object's points of a frame, and where the frame says that it is.
 struct Sight {
   const LabelledCloud& cloud;
@@ -52,21 +54,19 @@ std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight&
 std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight, double mended_m,
                                   const SceneParams& params) {
   const double off_m = sight.offset.off_W.norm();
-  const double beside_m = 2 * sight.offset.half_size_m + mended_m;
-  if (off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.cloud, params)) {
+  const double beside_m = 2 * sight.offset.half_size_m + kSlack_m + mended_m;
+  if (off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.points, sight.cloud, params)) {
     return Excess{off_m, beside_m};
   }
   const double two_voxels_m = 2 * object.map_O.grid().resolution_m() + mended_m;
   const Eigen::Vector3d growth_O = sight.T_W_O.rotation.conjugate() * sight.offset.off_W;
-  const bool is_smeared =
-      off_m > two_voxels_m &&
-      IsSmeared(object, sight.T_W_O, growth_O, sight.points, sight.cloud, params);
+  const bool is_smeared = off_m > two_voxels_m && IsSmeared(object, sight.T_W_O, growth_O,
+                                                            sight.points, sight.cloud, params);
   return is_smeared ? std::optional(Excess{off_m, two_voxels_m}) : std::nullopt;
 }
 
 std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, Time stamp,
                                const SceneParams& params) {
-  constexpr double kSlack_m = 1;
   constexpr double kManySigmas = 3;  // of a pose that is mended
   // What comes into sight at the other end of an object may lie so far from what was seen of it.
   constexpr double kLongestGap_m = 30;

@@ -13,7 +13,7 @@ namespace clearway {
 // - nothing: tens of metres, since the other end of a long object may come into sight;
 // - the points fit the object where it was predicted: three times the 95 % bound;
 // - they are nearer to that, within the bound: half the object's size and 1 m;
-// - rays pass through it where it is said to be: its size;
+// - rays pass through it where it is said to be: its size and 1 m;
 // - rays pass through, or end before, as much of it as is seen: two voxels. Then earlier motions
 //   were wrong, too, and too little so to tell from what came into sight.
 // The report names them. Without them an object is placed by prediction and its points, or begins

@@ -15,11 +15,11 @@ namespace {
 struct Votes {
   int in_favour = 0, against = 0;
 
-  bool AreAgainst() const {
-    constexpr int kFewRays = 5;
-    constexpr double kMost = 0.8;
-    const int all = in_favour + against;
-    return all >= kFewRays && against >= kMost * all;
+  // So many at least must be against it. Of an object that is hidden but for an edge, a few rays
+  // always pass that edge.
+  bool AreAgainst(double least) const {
+    constexpr double kFewRays = 5, kMost = 0.8;
+    return against >= std::max(kFewRays, least) && against >= kMost * (in_favour + against);
   }
 };
 
@@ -81,9 +81,11 @@ int HidingPoints(const Aabb& box_O, double apart_m, const MovingObject& object, 
 
 }  // namespace
 
-bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O, const LabelledCloud& cloud,
+bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O,
+                     std::span<const std::uint32_t> points, const LabelledCloud& cloud,
                      const SceneParams& params) {
-  return VotesOn(object.observed_box_O, object, T_W_O, cloud, params).AreAgainst();
+  const double least = 0.25 * static_cast<double>(points.size());
+  return VotesOn(object.observed_box_O, object, T_W_O, cloud, params).AreAgainst(least);
 }
 
 bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vector3d& growth_O,
@@ -116,7 +118,7 @@ bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vecto
   if (std::abs(growth_O[axis]) < kMostInAFrame_m) {
     votes.against += HidingPoints(behind_O, apart_m, object, T_W_O, points, cloud);
   }
-  return votes.AreAgainst();
+  return votes.AreAgainst(std::max(10.0, 0.3 * static_cast<double>(points.size())));
 }
 
 }  // namespace clearway

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 
 #include "clearway/scene/moving_object.h"
@@ -10,8 +11,10 @@
 namespace clearway {
 
 // Whether the object cannot be at T_W_O: most rays that meet its occupied voxels there go on
-// through them, or end there on another object. False if only a few rays meet them.
-bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O, const LabelledCloud& cloud,
+// through them, or end there on another object. False if only a few rays meet them, for its points
+// of this frame.
+bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O,
+                     std::span<const std::uint32_t> points, const LabelledCloud& cloud,
                      const SceneParams& params);
 
 // Whether the object's map, with O at T_W_O, is a smear of views at wrong poses. Its points of this

@@ -139,8 +139,8 @@ TEST_F(ReplayObjects, AHeadingThatFlipsLeavesTheMotionOutAndNamesTheObject) {
   folder.Write("points/0001.bin", Point(4, 5, 0, 0) + Point(9, 3, 0, 2));
   const Finished dut = Clearway({"replay", folder.path().string()});
   EXPECT_EQ(dut.exit_code, 0) << dut.err;
-  EXPECT_THAT(dut.out, HasSubstr("object 2: motion left out at 0.1 s: turns by 3.14 rad (limit "
-                                 "2.83 rad)"));
+  EXPECT_THAT(dut.out, HasSubstr("object 2: motion or pose left out at 0.1 s: turns by 3.14 rad "
+                                 "(limit 2.83 rad)"));
   EXPECT_EQ(Ask({"status"})["frames_applied"], 2);
 }
 

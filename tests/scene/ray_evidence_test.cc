@@ -32,7 +32,10 @@ class RayEvidence : public testing::Test {
     FrameReport report;
     const LabelledCloud cloud = PlaceCloud(frame, {}, report);
     const Pose T_W_O = Pose::Translation(x_m, 0, 0) * object_.history.back().T_W_O;
-    return IsPassedThrough(object_, T_W_O, cloud, {});
+    const auto hits = cloud.object_hits.find(7);
+    const std::span<const std::uint32_t> points =
+        hits == cloud.object_hits.end() ? std::span<const std::uint32_t>() : hits->second;
+    return IsPassedThrough(object_, T_W_O, points, cloud, {});
   }
 
   const Pose T_W_cube_ = Pose::Translation(5, 0, 0);

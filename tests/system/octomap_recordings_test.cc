@@ -24,8 +24,8 @@ std::vector<std::size_t> FramesOf(const FrameSource& source, std::size_t step) {
   return frames;
 }
 
-// OctoMap's update by one frame: the rays of all points but label -1, the end voxels of objects
-// taken out.
+// OctoMap's update by one frame: the rays of all points but those of label -1 and lost returns (0,
+// 0, 0), the end voxels of objects taken out.
 class OctomapStaticMap {
  public:
   OctomapStaticMap(double resolution_m, const RayOptions& rays)
@@ -34,7 +34,8 @@ class OctomapStaticMap {
   void Insert(const Frame& frame) {
     octomap::Pointcloud all, fixed;
     for (std::size_t i = 0; i < frame.points_S.size(); ++i) {
-      if (frame.labels[i] == kIgnoreLabel) continue;
+      const bool is_lost = frame.points_S[i].isZero(0);
+      if (frame.labels[i] == kIgnoreLabel || is_lost) continue;
       const Eigen::Vector3f p_W = (frame.T_W_S * frame.points_S[i].cast<double>()).cast<float>();
       all.push_back(testing_support::ToOctomap(p_W));
       if (frame.labels[i] == kStaticLabel) fixed.push_back(testing_support::ToOctomap(p_W));
