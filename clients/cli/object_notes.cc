@@ -1,7 +1,6 @@
 #include "cli/object_notes.h"
 
 #include "absl/strings/str_cat.h"
-#include "clearway/base/number_text.h"
 #include "cli/text.h"
 
 namespace clearway::cli {
@@ -33,10 +32,10 @@ const char* NameOf(ObjectIssueKind kind) {
 
 // What happened at `when`, and why.
 std::string Describe(const ObjectIssue& issue, const std::string& when) {
-  std::string value = Fixed(issue.value, 2), limit = Fixed(issue.limit, 2);
-  if (value == limit) {
-    value = NumberText(issue.value);
-    limit = NumberText(issue.limit);
+  std::string value, limit;
+  for (int digits = 2; value == limit && digits <= 8; digits += 2) {
+    value = Fixed(issue.value, digits);
+    limit = Fixed(issue.limit, digits);
   }
   switch (issue.kind) {
     case ObjectIssueKind::kTurnTooLarge:

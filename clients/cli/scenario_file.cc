@@ -64,10 +64,8 @@ absl::Status ParseTask(const JsonFields& fields, const Json& value, PlanTask& ta
     const auto corners = fields.Vectors("area_m");
     if (!corners.ok()) return corners.status();
     if (corners->size() != 2) return fields.Error("area_m", "expected two corners");
-    task.area_W = {(*corners)[0], (*corners)[1]};
-    if (!((*corners)[0].array() <= (*corners)[1].array()).all()) {
-      return fields.Error("area_m", "expected the lowest corner first, then the highest");
-    }
+    const Eigen::Vector3d &a = (*corners)[0], &b = (*corners)[1];
+    task.area_W = {a.cwiseMin(b), a.cwiseMax(b)};
   }
   for (const auto& [name, number] :
        {std::pair{"max_speed_mps", &task.max_speed_mps},

@@ -72,18 +72,22 @@ std::vector<RecordedPose> UsablePoses(const std::vector<RecordedPose>& poses, Le
   return usable;
 }
 
-// No sensor takes a thousand scans a second: such stamps are of another unit, and nothing in the
-// recording would have a velocity.
+// Nobody takes 5,000 scans a second: such stamps are of another unit, and nothing in the recording
+// would have a velocity.
 absl::Status CheckUnit(const std::vector<RecordedPose>& poses) {
   constexpr std::size_t kFew = 3;
-  constexpr Duration kShortest = std::chrono::milliseconds(1);
+  constexpr Duration kShortest = std::chrono::microseconds(200);
   if (poses.size() < kFew) return absl::OkStatus();
-  const Duration mean =
-      (poses.back().stamp - poses.front().stamp) / static_cast<std::int64_t>(poses.size() - 1);
-  if (mean == Duration::zero() || mean >= kShortest) return absl::OkStatus();
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    steps.push_back(poses[i].stamp - poses[i - 1].stamp);
+  }
+  const auto median = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, median);
+  if (*median <= Duration::zero() || *median >= kShortest) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      absl::StrCat("the stamps of ", poses.size(), " frames are ", mean.count(),
-                   " ns apart on average; are they in microseconds or milliseconds?"));
+      absl::StrCat("most of the ", poses.size(), " frames' stamps are ", median->count(),
+                   " ns apart or less; are the stamps of another unit than nanoseconds?"));
 }
 
 // The frames of the others. Far boxes of frames that count go to left_out.

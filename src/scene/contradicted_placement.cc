@@ -33,6 +33,8 @@ struct Excess {
 std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight& sight, Time stamp,
                                         double near_m, double mended_m, const SceneParams& params) {
   constexpr double kManyBounds = 3;
+  constexpr double kNoise_m = 0.15;  // of poses that were even so far
+  constexpr double kWide_m = 0.5;    // more than a lorry by the noise of its heading
   const double off_m = sight.offset.off_W.norm();
   const Pose T_W_predicted = PredictPose(object, stamp, params.horizon).T_W_O;
   const double bound_m = object.bound.At(ToSeconds(stamp - object.LastPose().stamp));
@@ -43,9 +45,9 @@ std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight&
   const double two_voxels_m = 2 * object.map_O.grid().resolution_m();
   if (predicted.wider_m > two_voxels_m) return std::nullopt;
   // Turned by a right angle, a car spreads beyond its box on both sides.
-  const double beyond_m = 0.5 * sight.offset.wider_m;
-  if (beyond_m > two_voxels_m + mended_m) return Excess{beyond_m, two_voxels_m + mended_m};
-  const double seldom_m = kManyBounds * bound_m + mended_m;
+  const double beyond_m = 0.5 * sight.offset.wider_m, wide_m = kWide_m + mended_m;
+  if (beyond_m > wide_m) return Excess{beyond_m, wide_m};
+  const double seldom_m = kManyBounds * bound_m + kNoise_m + mended_m;
   const bool is_seldom = off_m > seldom_m && predicted_off_m == 0;
   return is_seldom ? std::optional(Excess{off_m, seldom_m}) : std::nullopt;
 }

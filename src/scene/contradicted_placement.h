@@ -11,11 +11,12 @@ namespace clearway {
 // Takes motions and poses out of the clues that put an object away from its points: its map would
 // grow by what lies between. By how much is too far depends on what else speaks against them:
 // - nothing: tens of metres, since the other end of a long object may come into sight;
-// - the points fit the object where it was predicted: three times the 95 % bound;
-// - they spread wider than the object, turned as stated, but not as predicted: two voxels a side;
+// - the points fit the object where it was predicted: three times the 95 % bound and 0.15 m;
+// - they spread wider than the object, turned as stated, but not as predicted: 0.5 m a side;
 // - they are nearer to the prediction, within the bound: half the object's size and 1 m;
 // - rays pass through it where it is said to be: its size and 1 m;
-// - rays pass through, or end before, as much of it as is seen: two voxels. Then earlier motions
+// - rays pass through, or end before, as much of it as is seen: two voxels and a tenth of that.
+// Then earlier motions
 //   were wrong, too, and too little so to tell from what came into sight.
 // The report names them. Without them an object is placed by prediction and its points, or begins
 // anew (PlaceByPoints).

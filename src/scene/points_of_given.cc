@@ -31,6 +31,12 @@ std::optional<ObjectIssue> WhyOthers(const MovingObject& object, const ObjectClu
   return ObjectIssue{ObjectIssueKind::kContradicted, object.id, *median, limit_m};
 }
 
+// Counted only if a motion or pose is left out.
+void NoteElsewhere(const ObjectIssue& issue, const ObjectClue& clue, FrameReport& report) {
+  if (clue.Places()) return AddIssue(issue, report);
+  if (report.issues.size() < kMaxObjectIssues) report.issues.push_back(issue);
+}
+
 }  // namespace
 
 void LeaveOutPointsOfGiven(const SceneObjects& objects, Time stamp, const SceneParams& params,
@@ -39,7 +45,7 @@ void LeaveOutPointsOfGiven(const SceneObjects& objects, Time stamp, const SceneP
     const auto clue = clues.find(object->id);
     if (!object->given() || clue == clues.end() || clue->second.points.empty()) continue;
     if (const auto issue = WhyOthers(*object, clue->second, cloud, stamp, params)) {
-      AddIssue(*issue, report);
+      NoteElsewhere(*issue, clue->second, report);
       for (const std::uint32_t i : clue->second.points) {
         cloud.kinds[i] = RayEnd::kHit;
         cloud.labels[i] = kStaticLabel;

@@ -91,7 +91,7 @@ bool IsPassedThrough(const MovingObject& object, const Pose& T_W_O,
 bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vector3d& growth_O,
                std::span<const std::uint32_t> points, const LabelledCloud& cloud,
                const SceneParams& params) {
-  constexpr double kLeast_m = 1;
+  constexpr double kLeast_m = 1, kManyRays = 10;
   constexpr double kMostInAFrame_m = 3;  // that a wrong motion adds
   int axis = 0;
   growth_O.cwiseAbs().maxCoeff(&axis);
@@ -103,6 +103,8 @@ bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vecto
   std::ranges::sort(along_m);
   const std::size_t strays = along_m.size() / 20;
   const double least_m = along_m[strays], most_m = along_m[along_m.size() - 1 - strays];
+  // Labels that bleed, and what swings, let a model grow a little.
+  if (std::abs(growth_O[axis]) < 0.1 * (most_m - least_m)) return false;
 
   const double apart_m = 2 * object.map_O.grid().resolution_m();
   Aabb behind_O = object.observed_box_O;
@@ -114,11 +116,13 @@ bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vecto
   const double behind_m = behind_O.max[axis] - behind_O.min[axis];
   if (behind_m < std::max(kLeast_m, most_m - least_m)) return false;
   Votes votes = VotesOn(behind_O, object, T_W_O, cloud, params);
+  const auto size = static_cast<double>(points.size());
+  if (votes.AreAgainst(std::max(kManyRays, 0.3 * size))) return true;
   // One end of a long object may hide the other.
-  if (std::abs(growth_O[axis]) < kMostInAFrame_m) {
-    votes.against += HidingPoints(behind_O, apart_m, object, T_W_O, points, cloud);
-  }
-  return votes.AreAgainst(std::max(10.0, 0.3 * static_cast<double>(points.size())));
+  if (std::abs(growth_O[axis]) > kMostInAFrame_m) return false;
+  votes.against += HidingPoints(behind_O, apart_m, object, T_W_O, points, cloud);
+  // Labels that bleed leave background behind an object.
+  return votes.AreAgainst(std::max(kManyRays, 0.5 * size));
 }
 
 }  // namespace clearway

@@ -185,11 +185,11 @@ TEST_P(WrongWay, SoIsWhatComesNearer) {
     if (k > 0) frame.motions.push_back({5, Pose::Translation(step_m, 0, 0), At(0.1 * (k - 1))});
     left_out += Applied(frame).motions_implausible;
   }
-  EXPECT_GT(left_out, 5u);
+  EXPECT_GT(left_out, 3u);
   EXPECT_LT(Length(), 15);
 }
 
-INSTANTIATE_TEST_SUITE_P(SlowAndFast, WrongWay, testing::Values(0.3, 0.5, 0.9));
+INSTANTIATE_TEST_SUITE_P(SlowAndFast, WrongWay, testing::Values(0.4, 0.6, 0.9));
 
 // A lorry of 16 m behind a wall with a gap of 4 m: a part of it after the other, both ends cut off.
 TEST_F(ContradictedPlacement, WhatPassesAGapIsAsLongAsItIs) {
