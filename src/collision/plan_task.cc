@@ -59,10 +59,11 @@ absl::Status CheckJoint(const std::string& field, const Joint& joint) {
 
 absl::Status CheckSpace(const ConfigurationSpace& space, const Robot& robot) {
   if (const auto* plane = std::get_if<PlaneSpace>(&space)) {
-    for (const auto& [field, value] : {std::pair{"plane.yaw_rad", plane->yaw_rad},
-                                       {"plane.ground_z_m", plane->ground_z_m},
-                                       {"plane.clearance_m", plane->clearance_m.value_or(0)}}) {
-      if (auto status = CheckWithin(field, value, -kMost_m, kMost_m); !status.ok()) return status;
+    for (const auto& [field, value, least] :
+         {std::tuple{"plane.yaw_rad", plane->yaw_rad, -kMost_m},
+          {"plane.ground_z_m", plane->ground_z_m, -kMost_m},
+          {"plane.clearance_m", plane->clearance_m.value_or(0), 0.0}}) {
+      if (auto status = CheckWithin(field, value, least, kMost_m); !status.ok()) return status;
     }
   }
   const auto* arm = std::get_if<ArmSpace>(&space);

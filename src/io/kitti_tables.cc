@@ -169,6 +169,8 @@ struct LabelColumns {
   std::size_t numbers;  // truncated
 };
 
+constexpr double kMaxLength_m = 100;
+
 KittiBox TakeBox(Row& row, const LabelColumns& columns) {
   const std::size_t size = columns.numbers + 7, place = size + 3;
   KittiBox box;
@@ -177,8 +179,16 @@ KittiBox TakeBox(Row& row, const LabelColumns& columns) {
   box.track = static_cast<int>(row.Integer(1, 0, kMaxNumber));
   box.type = columns.TypeOf(row);
   box.size_m = {row.Coordinate(size + 2), row.Coordinate(size + 1), row.Coordinate(size)};
+  // Shifted columns are numbers, too: of pixels, most often.
   for (std::size_t i = size; i < place; ++i) {
-    if (row.Coordinate(i) <= 0) row.Fail(i, "a length above 0");
+    const double length_m = row.Coordinate(i);
+    if (length_m <= 0 || length_m > kMaxLength_m) row.Fail(i, "a length above 0, at most 100 m");
+  }
+  for (const auto& [i, most] : {std::pair{columns.numbers, 2}, {columns.numbers + 1, 4}}) {
+    const double grade = row.Coordinate(i);
+    if (grade < -1 || grade > most) {
+      row.Fail(i, absl::StrCat(most == 2 ? "a truncation" : "an occlusion", " of -1 to ", most));
+    }
   }
   const Eigen::Vector3d bottom_C(row.Coordinate(place), row.Coordinate(place + 1),
                                  row.Coordinate(place + 2));

@@ -31,6 +31,8 @@ Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, con
              const SceneParams& params) {
   if (StayedWithin(track, solid.radius_m, params.rest_distance_m)) return {};
   if (params.motion == MotionModel::kLastMotion || track.size() < 2) return last_motion_O;
+  const StampedPose* const before = StepBefore(track, track.back().stamp);
+  if (before != nullptr && TurnsTooFar(*before, track.back())) return last_motion_O;
   return VelocityOfTrack(track, CenterOf(solid));
 }
 
@@ -44,6 +46,10 @@ const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp) {
     return pose.stamp + kShortestStep <= stamp;
   });
   return before == track.rend() ? nullptr : &*before;
+}
+
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after) {
+  return before.T_W_O.rotation.angularDistance(after.T_W_O.rotation) > kMaxTurn_rad;
 }
 
 Twist LastMotionOf(std::span<const StampedPose> track) {

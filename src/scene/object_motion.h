@@ -13,7 +13,7 @@ Eigen::Vector3d CenterOf(const Solid& solid);
 
 // The velocity (in O) with which an object of that track goes on: by params.motion its last motion,
 // or what fits the track, whose newest pose is the last; none if it is at rest
-// (params.rest_distance_m).
+// (params.rest_distance_m). Its last motion counts in any case if the last step turns too far.
 Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, const Solid& solid,
              const SceneParams& params);
 
@@ -27,6 +27,9 @@ inline constexpr Duration kShortestStep = std::chrono::milliseconds(5);
 
 // The newest pose that is at least kShortestStep before `stamp`; null if there is none.
 const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp);
+
+// Whether nobody knows which way the step turns (kMaxTurn_rad).
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after);
 
 // The velocity of the last step, in O, of at least kShortestStep; zero if there is none.
 Twist LastMotionOf(std::span<const StampedPose> track);

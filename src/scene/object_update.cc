@@ -28,10 +28,18 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
 }
 
 // To that of the step that leads there from `from`, or, if it is too short, from an earlier pose.
+// It stays what it was, in W and without its turn, if the step turns too far: a heading is wrong
+// then, and O itself, about which nothing turned, may have swung by the length of the object.
 void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& object) {
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
-  if (from != nullptr) object.velocity_O = VelocityBetween(*from, to);
+  if (from == nullptr) return;
+  if (!TurnsTooFar(*from, to)) {
+    object.velocity_O = VelocityBetween(*from, to);
+  } else if (object.velocity_O) {
+    const Eigen::Vector3d v_W = object.LastPose().T_W_O.rotation * object.velocity_O->linear;
+    object.velocity_O = Twist{Eigen::Vector3d::Zero(), to.T_W_O.rotation.conjugate() * v_W};
+  }
 }
 
 // The motion between two reported poses is known from these two alone, so what was predicted or

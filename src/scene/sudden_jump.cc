@@ -33,10 +33,7 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   }
   const double turn_rad = stated->rotation.angularDistance(predicted.T_W_O.rotation);
   const double limit_rad = kSlack_rad + kTurnRate_radps * ahead_s;
-  // A box turned round tells where the object is all the same.
-  if (turn_rad <= limit_rad || (clue.pose != nullptr && turn_rad > kMaxTurn_rad)) {
-    return std::nullopt;
-  }
+  if (turn_rad <= limit_rad) return std::nullopt;
   return ObjectIssue{ObjectIssueKind::kTurnTooLarge, object.id, turn_rad, limit_rad};
 }
 

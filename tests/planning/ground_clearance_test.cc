@@ -54,6 +54,16 @@ TEST(GroundClearance, TheDefaultIsEnoughWhereverTheGroundLiesInAVoxel) {
   }
 }
 
+TEST(GroundClearance, BelowTheGroundIsRefused) {
+  PlanTask task = AlongTheGround(0);
+  std::get<PlaneSpace>(task.space).clearance_m = -0.1;
+  const absl::Status dut = Validate(task, Robots()[0]);
+  EXPECT_TRUE(absl::IsInvalidArgument(dut));
+  EXPECT_NE(dut.message().find("plane.clearance_m"), absl::string_view::npos) << dut;
+  std::get<PlaneSpace>(task.space).clearance_m = 0;
+  EXPECT_TRUE(Validate(task, Robots()[0]).ok());
+}
+
 // Any clearance that keeps off the voxels' top is enough, be it by a hair; what touches is blocked.
 TEST(GroundClearance, WhatIsAboveTheGroundsVoxelsIsFree) {
   const ScenePtr scene = GroundAt(0, 0.1);

@@ -307,17 +307,10 @@ TEST_F(ObjectMotionTest, APoseOutOfReachBeginsAnewUnlessItsBoxIsKnown) {
 
 // A detector's box may flip from one frame to the next.
 TEST_F(ObjectMotionTest, OfHalfATurnBetweenPosesTheTranslationCounts) {
-  SceneBuilder dut = Builder();
-  Frame first = Seen(0, Pose::Translation(4, 0, 0));
-  const Eigen::Vector3d origin_W = FirstOrigin({4, 0, 0});  // of the box as of O
-  first.poses = {{5, {Eigen::Quaterniond::Identity(), origin_W}}};
-  ObjectAfter(dut, first);
-  const Pose flipped{Eigen::Quaterniond(0, 0, 0, 1), origin_W + Eigen::Vector3d(0.1, 0, 0)};
-  Frame second = Seen(0.1, flipped);
-  second.poses = {{5, flipped}};
-  const MovingObject& object = ObjectAfter(dut, second);
-  EXPECT_NEAR(object.SpeedMps(), 1, 1e-4);
-  EXPECT_EQ(object.velocity_O->angular.norm(), 0);
+  const Pose flipped{Eigen::Quaterniond(0, 0, 0, 1), {4.1, 0, 0}};
+  const Twist dut = VelocityBetween({At(0), Pose::Translation(4, 0, 0)}, {At(0.1), flipped});
+  EXPECT_NEAR(dut.linear.norm(), 1, 1e-9);
+  EXPECT_EQ(dut.angular.norm(), 0);
 }
 
 TEST_F(ObjectMotionTest, HistoryIsBounded) {

@@ -115,6 +115,33 @@ TEST_F(SuddenJump, SoIsOneOfTheFirstMotion) {
 }
 
 // As hard as anything on wheels can: 10 m/s^2, and a quarter turn within half a second.
+// O is not where the box is: the first view is of the car's side alone.
+TEST_F(SuddenJump, AFlippedHeadingOfAPoseDoesNotChangeTheVelocity) {
+  const Pose flip{Eigen::Quaterniond(Eigen::AngleAxisd(3.1415926, Eigen::Vector3d::UnitZ())), {}};
+  for (const int flipped : {1, 2, 3}) {  // frames in a row, the last of which is the newest
+    dut_.Reset();
+    const int last = 11 + flipped;
+    FrameReport report;
+    for (int k = 0; k <= last; ++k) {
+      Frame frame = FrameAt(0.1 * k);
+      std::vector<Eigen::Vector3d> seen = BoxSurface({4, 2, 2}, 0.2);
+      if (k == 0) std::erase_if(seen, [](const Eigen::Vector3d& p_B) { return p_B.y() > -0.9; });
+      AddObject(frame, 1, CarAt(k, 4), seen);
+      frame.poses = {{1, k > 11 ? CarAt(k, 4) * flip : CarAt(k, 4)}};
+      report = Applied(frame);
+      if (k == 12) {
+        ASSERT_EQ(report.issues.size(), 1u) << flipped;
+        EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kTurnTooLarge);
+      }
+    }
+    const ScenePtr scene = dut_.Publish();
+    const Pose T_W_O = scene->FindObject(1)->LastPose().T_W_O;
+    const Eigen::Vector3d v_W = T_W_O.rotation * scene->FindObject(1)->velocity_O->linear;
+    EXPECT_LT((v_W - Eigen::Vector3d(5, 0, 0)).norm(), 0.3) << flipped << ": " << v_W.transpose();
+    EXPECT_EQ(StatusAhead(last, 10, 4), SpaceStatus::kOccupied) << flipped;
+  }
+}
+
 TEST_F(SuddenJump, WhatBrakesAndTurnsIsNoJump) {
   Pose T_W_B = CarAt(0, 0);
   double speed_mps = 15;
