@@ -138,7 +138,7 @@ absl::StatusOr<BoxOccupancy> AskBox(const SceneSnapshot& scene, const Aabb& box_
     answer.cell_counts[i] = static_cast<std::uint32_t>(range[i].count);
     per_time *= answer.cell_counts[i];
   }
-  const auto [nx, ny, nz] = answer.cell_counts;
+  const std::uint32_t nx = answer.cell_counts[0], ny = answer.cell_counts[1];
   const auto center_of = [&](std::size_t i) -> Eigen::Vector3d {
     const std::size_t at = i % per_time;
     const Eigen::Vector3d cell(at % nx + range[0].first, at / nx % ny + range[1].first,

@@ -29,8 +29,9 @@ struct OpenScans {
 };
 
 std::span<const RecordedBox> BoxesOf(const OpenScans& open, int frame) {
-  const auto [first, last] = std::ranges::equal_range(open.boxes, frame, {}, &RecordedBox::frame);
-  return {first, last};
+  // As two searches: clang 14 cannot compile equal_range of GCC 12's library.
+  return {std::ranges::lower_bound(open.boxes, frame, {}, &RecordedBox::frame),
+          std::ranges::upper_bound(open.boxes, frame, {}, &RecordedBox::frame)};
 }
 
 const RecordedBox* BoxOf(const OpenScans& open, std::size_t index, ObjectId id) {
