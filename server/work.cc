@@ -21,7 +21,6 @@ std::chrono::nanoseconds ThreadTime() {
 }  // namespace
 
 Gone GoneOf(const ServerCore& core, const grpc::ServerContext* context) {
-  using Clock = std::chrono::steady_clock;
   return [&core, context, gone = false, next_look = Clock::now() + kLook]() mutable {
     const Clock::time_point now = Clock::now();
     if (!gone && now >= next_look) {
