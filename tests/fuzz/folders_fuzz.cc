@@ -1,6 +1,6 @@
 // Everything that `clearway replay` takes: folders of scans, depth images and logs, and recordings.
-// An input is the files of one folder (FilesOf); the format is told by what is in it. Folders that
-// stand for more than one sequence are opened at the deepest folder of a file, too.
+// An input is the files of one folder (FilesOf), whose content decides the format. Some formats are
+// opened at a folder within: every folder that holds a file is tried, too.
 #include <algorithm>
 #include <set>
 
