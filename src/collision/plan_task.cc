@@ -165,6 +165,8 @@ std::vector<double> NormalizedConfiguration(const ConfigurationSpace& space,
 }
 
 absl::Status Validate(const PlanTask& task, const Robot& robot) {
+  // First, since a clearance that is not given comes from the padding.
+  if (auto status = Validate(task.options, robot); !status.ok()) return status;
   if (auto status = CheckSpace(task.space, robot); !status.ok()) return status;
   if (auto status = CheckArea(task); !status.ok()) return status;
   if (auto status = CheckConfiguration("start", task.start, task); !status.ok()) return status;
@@ -182,7 +184,7 @@ absl::Status Validate(const PlanTask& task, const Robot& robot) {
                                             ToNanoseconds(latest_start)));
   }
   if (task.options.world_at) return Invalid("world_at_ns", "is not for plans");
-  return Validate(task.options, robot);
+  return absl::OkStatus();
 }
 
 }  // namespace clearway
