@@ -21,6 +21,8 @@ absl::StatusOr<PlaneSpace> ParsePlane(const JsonFields& fields) {
   if (fields.Has("clearance_m")) {
     const auto read = fields.Number("clearance_m");
     if (!read.ok()) return read.status();
+    if (*read < 0)
+      return fields.Error("clearance_m", "is below 0: the robot would be in the ground");
     plane.clearance_m = *read;
   }
   return plane;

@@ -21,6 +21,15 @@ bool StayedWithin(std::span<const StampedPose> track, double radius_m, double di
   return false;  // not known for so long
 }
 
+// What comes after its last step that turns too far.
+std::span<const StampedPose> SinceItTurned(std::span<const StampedPose> track,
+                                           const Eigen::Vector3d& center_O) {
+  for (std::size_t i = track.size(); i-- > 1;) {
+    if (TurnsTooFar(track[i - 1], track[i], center_O)) return track.subspan(i);
+  }
+  return track;
+}
+
 }  // namespace
 
 Eigen::Vector3d CenterOf(const Solid& solid) {
@@ -30,15 +39,17 @@ Eigen::Vector3d CenterOf(const Solid& solid) {
 Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, const Solid& solid,
              const SceneParams& params) {
   if (StayedWithin(track, solid.radius_m, params.rest_distance_m)) return {};
-  if (params.motion == MotionModel::kLastMotion || track.size() < 2) return last_motion_O;
-  const StampedPose* const before = StepBefore(track, track.back().stamp);
-  if (before != nullptr && TurnsTooFar(*before, track.back())) return last_motion_O;
-  return VelocityOfTrack(track, CenterOf(solid));
+  if (params.motion == MotionModel::kLastMotion) return last_motion_O;
+  const Eigen::Vector3d center_O = CenterOf(solid);
+  track = SinceItTurned(track, center_O);
+  return track.size() < 2 ? last_motion_O : VelocityOfTrack(track, center_O);
 }
 
 Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
                      const SceneParams& params) {
-  return GoesOn(track, LastMotionOf(track), solid, params);
+  const StampedPose* const before = StepBefore(track, track.back().stamp);
+  if (before == nullptr) return GoesOn(track, {}, solid, params);
+  return GoesOn(track, VelocityOfStep(*before, track.back(), CenterOf(solid)), solid, params);
 }
 
 const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp) {
@@ -48,8 +59,33 @@ const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp) {
   return before == track.rend() ? nullptr : &*before;
 }
 
-bool TurnsTooFar(const StampedPose& before, const StampedPose& after) {
-  return before.T_W_O.rotation.angularDistance(after.T_W_O.rotation) > kMaxTurn_rad;
+double MaxTurn_rad(double seconds) {
+  constexpr double kNoise_rad = 0.3, kTurnRate_radps = 6;
+  return std::min(kNoise_rad + kTurnRate_radps * seconds, kMaxTurn_rad);
+}
+
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
+                 const Eigen::Vector3d& center_O) {
+  constexpr double kNever_rad = 0.3, kSideways_mps2 = 7;
+  const Pose &from = before.T_W_O, &to = after.T_W_O;
+  static const double kCosOfHalf = std::cos(kNever_rad / 2);
+  if (std::abs(from.rotation.dot(to.rotation)) > kCosOfHalf) return false;
+  const double turn_rad = from.rotation.angularDistance(to.rotation);
+  const double step_s = ToSeconds(after.stamp - before.stamp);
+  if (turn_rad > MaxTurn_rad(step_s)) return true;
+  const double moved_m = (to * center_O - from * center_O).norm();
+  return turn_rad * moved_m > kSideways_mps2 * step_s * step_s;
+}
+
+Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
+                     const Eigen::Vector3d& center_O, const Eigen::Vector3d& turn_W_radps) {
+  if (!TurnsTooFar(before, after, center_O)) return VelocityBetween(before, after);
+  const Pose &from = before.T_W_O, &to = after.T_W_O;
+  const Eigen::Vector3d center_W_mps =
+      (to * center_O - from * center_O) / ToSeconds(after.stamp - before.stamp);
+  const Eigen::Quaterniond R_O_W = to.rotation.conjugate();
+  const Eigen::Vector3d angular_O = R_O_W * turn_W_radps;
+  return {angular_O, R_O_W * center_W_mps - angular_O.cross(center_O)};
 }
 
 Twist LastMotionOf(std::span<const StampedPose> track) {

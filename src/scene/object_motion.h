@@ -28,10 +28,23 @@ inline constexpr Duration kShortestStep = std::chrono::milliseconds(5);
 // The newest pose that is at least kShortestStep before `stamp`; null if there is none.
 const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp);
 
-// Whether nobody knows which way the step turns (kMaxTurn_rad).
-bool TurnsTooFar(const StampedPose& before, const StampedPose& after);
+// By how much a heading may be off from where it was, or was predicted to be, so long ago: people
+// turn round within half a second; the rest is noise of headings.
+double MaxTurn_rad(double seconds);
 
-// The velocity of the last step, in O, of at least kShortestStep; zero if there is none.
+// Whether a step turns farther than that, or in a curve that nothing takes that is as fast as the
+// point center_O of the object: then a heading is wrong.
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
+                 const Eigen::Vector3d& center_O);
+
+// The velocity of a step, in O, of at least kShortestStep. If it turns too far, nobody knows how
+// the object turns; it is that of center_O, about which the heading is wrong, with the turn rate
+// turn_W_radps.
+Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
+                     const Eigen::Vector3d& center_O,
+                     const Eigen::Vector3d& turn_W_radps = Eigen::Vector3d::Zero());
+
+// The velocity of the last step, in O, however far it turns; zero if there is none.
 Twist LastMotionOf(std::span<const StampedPose> track);
 
 }  // namespace clearway

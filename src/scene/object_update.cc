@@ -28,18 +28,17 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
 }
 
 // To that of the step that leads there from `from`, or, if it is too short, from an earlier pose.
-// It stays what it was, in W and without its turn, if the step turns too far: a heading is wrong
-// then, and O itself, about which nothing turned, may have swung by the length of the object.
-void SetVelocity(const StampedPose* from, const StampedPose& to, MovingObject& object) {
+// The object turns as before if the step turns too far (VelocityOfStep).
+void SetVelocity(const StampedPose* from, const StampedPose& to, const Eigen::Vector3d& center_O,
+                 MovingObject& object) {
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
   if (from == nullptr) return;
-  if (!TurnsTooFar(*from, to)) {
-    object.velocity_O = VelocityBetween(*from, to);
-  } else if (object.velocity_O) {
-    const Eigen::Vector3d v_W = object.LastPose().T_W_O.rotation * object.velocity_O->linear;
-    object.velocity_O = Twist{Eigen::Vector3d::Zero(), to.T_W_O.rotation.conjugate() * v_W};
+  Eigen::Vector3d turn_W_radps = Eigen::Vector3d::Zero();
+  if (object.velocity_O) {
+    turn_W_radps = object.LastPose().T_W_O.rotation * object.velocity_O->angular;
   }
+  object.velocity_O = VelocityOfStep(*from, to, center_O, turn_W_radps);
 }
 
 // The motion between two reported poses is known from these two alone, so what was predicted or
@@ -83,7 +82,7 @@ Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W, double voxel_m) {
 
 // To where its points put it. Their noise is that of registration: a track evens it out.
 void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingObject& object) {
-  SetVelocity(nullptr, {stamp, T_W_O}, object);
+  SetVelocity(nullptr, {stamp, T_W_O}, CenterOf(*object.solid), object);
   Remember(object, {stamp, T_W_O}, params.history);
   SceneParams of_track = params;
   of_track.motion = MotionModel::kTrack;
@@ -116,6 +115,21 @@ void Bridge(const ObjectClue& clue, Time stamp, const SceneParams& params, Movin
   }
   Remember(object, {stamp, PlaceByItsPoints(object, clue, stamp, params)}, params.history);
   object.bridged = true;
+}
+
+// T_B_O from this pose on. Where the box is suddenly turned and stays so (LeaveOutJumps leaves out
+// its first pose), the object is not: it turns as predicted, and the box's place counts.
+Pose FrameInBox(const ObjectPose& pose, Time stamp, const SceneParams& params,
+                const MovingObject& object) {
+  constexpr double kLongGap_s = 1;  // in which anything can turn
+  const Pose& T_B_O = *object.T_B_O;
+  const double ahead_s = ToSeconds(stamp - object.t_k());
+  if (object.given() || ahead_s <= 0 || ahead_s > kLongGap_s) return T_B_O;
+  const Eigen::Quaterniond R_W_O = PredictPose(object, stamp, params.horizon).T_W_O.rotation;
+  const double turn_rad = R_W_O.angularDistance(pose.T_W_B.rotation * T_B_O.rotation);
+  if (turn_rad <= MaxTurn_rad(ahead_s)) return T_B_O;
+  const Eigen::Vector3d box_O = Inverse(T_B_O).translation;
+  return Inverse(pose.T_W_B) * Pose{R_W_O, pose.T_W_B.translation - R_W_O * box_O};
 }
 
 }  // namespace
@@ -165,7 +179,7 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     if (clue.motion->from <= object.placed_at + kNoGap) ForgetPredictions(stamp, object);
     const StampedPose from{clue.motion->from, T_W_from};
-    SetVelocity(&from, {stamp, T_W_O}, object);
+    SetVelocity(&from, {stamp, T_W_O}, CenterOf(*object.solid), object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
     const bool is_first = !object.T_B_O;
@@ -173,10 +187,13 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
       object.T_B_O = Inverse(clue.pose->T_W_B) * PlaceByItsPoints(object, clue, stamp, params);
       object.told.reset();
     }
+    object.T_B_O = FrameInBox(*clue.pose, stamp, params, object);
     const Pose T_W_T = clue.pose->T_W_B * *object.T_B_O;
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     if (!is_first) ForgetPredictions(stamp, object);
-    SetVelocity(nullptr, {stamp, T_W_O}, object);
+    // Whoever reports a box with a wrong heading knows where it is.
+    const Eigen::Vector3d box_O = Inverse(*object.T_B_O).translation;
+    SetVelocity(nullptr, {stamp, T_W_O}, box_O, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.T_W_O_estimated) {
     Estimate(*clue.T_W_O_estimated, stamp, params, object);

@@ -14,25 +14,23 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   // Predictions are off by their 95 % bound seldom, by ten times as much never; a bound that
   // follows from very even poses may be too narrow for a sudden move.
   constexpr double kManyBounds = 10, kSlack_m = 1, kAcceleration_mps2 = 30;
-  // People turn on the spot within half a second.
-  constexpr double kSlack_rad = 1.5, kTurnRate_radps = 3;
   constexpr std::size_t kFewPoints = 3;
-  if (clue.points.size() < kFewPoints || object.bridged) return std::nullopt;
+  if (clue.points.empty() || object.bridged) return std::nullopt;
   const std::optional<Pose> stated = StatedPose(object, clue, stamp, params);
   if (!stated) return std::nullopt;
   const PredictedPose predicted = PredictPose(object, stamp, params.horizon);
   if (predicted.beyond_horizon_radius_m) return std::nullopt;
-  const double ahead_s = ToSeconds(stamp - object.LastPose().stamp);
+  const double ahead_s = ToSeconds(stamp - object.t_k());
 
   const Eigen::Vector3d center_O = CenterOf(*object.solid);
   const double off_m = (*stated * center_O - predicted.T_W_O * center_O).norm();
   const double limit_m = kManyBounds * object.bound.At(ahead_s) + kSlack_m +
                          0.5 * kAcceleration_mps2 * ahead_s * ahead_s;
-  if (object.velocity_O && off_m > limit_m) {
+  if (object.velocity_O && off_m > limit_m && clue.points.size() >= kFewPoints) {
     return ObjectIssue{ObjectIssueKind::kJumped, object.id, off_m, limit_m};
   }
   const double turn_rad = stated->rotation.angularDistance(predicted.T_W_O.rotation);
-  const double limit_rad = kSlack_rad + kTurnRate_radps * ahead_s;
+  const double limit_rad = MaxTurn_rad(ahead_s);
   if (turn_rad <= limit_rad) return std::nullopt;
   return ObjectIssue{ObjectIssueKind::kTurnTooLarge, object.id, turn_rad, limit_rad};
 }

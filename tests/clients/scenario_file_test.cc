@@ -96,6 +96,8 @@ TEST(ScenarioFile, WhatIsWrongIsNamed) {
   expect("\"padding_m\"", "\"paddin\"", "s.json: paddin: unknown field");
   expect("\"plane\"", "\"plain\"", "space.type: expected plane, flight or arm");
   expect("\"turns\": false", "\"turns\": 1", "space.turns: expected true or false");
+  expect("\"turns\": false", "\"turns\": false, \"clearance_m\": -0.1",
+         "space.clearance_m: is below 0");
   expect("[6, 4, 0]]", "[6, 4]]", "area_m[1]: expected 3 numbers");
   expect("\"start\": [-5, 0]", "\"start\": [-5]", "start has 1 numbers; it must have 2");
   expect("\"start\": [-5, 0]", "\"start\": [-50, 0]", "start[0] is -50");
