@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/box_heading.h"
 #include "scene/mended_pose.h"
 #include "scene/motion_from_points.h"
 #include "scene/object_motion.h"
@@ -115,21 +116,6 @@ void Bridge(const ObjectClue& clue, Time stamp, const SceneParams& params, Movin
   }
   Remember(object, {stamp, PlaceByItsPoints(object, clue, stamp, params)}, params.history);
   object.bridged = true;
-}
-
-// T_B_O from this pose on. Where the box is suddenly turned and stays so (LeaveOutJumps leaves out
-// its first pose), the object is not: it turns as predicted, and the box's place counts.
-Pose FrameInBox(const ObjectPose& pose, Time stamp, const SceneParams& params,
-                const MovingObject& object) {
-  constexpr double kLongGap_s = 1;  // in which anything can turn
-  const Pose& T_B_O = *object.T_B_O;
-  const double ahead_s = ToSeconds(stamp - object.t_k());
-  if (object.given() || ahead_s <= 0 || ahead_s > kLongGap_s) return T_B_O;
-  const Eigen::Quaterniond R_W_O = PredictPose(object, stamp, params.horizon).T_W_O.rotation;
-  const double turn_rad = R_W_O.angularDistance(pose.T_W_B.rotation * T_B_O.rotation);
-  if (turn_rad <= MaxTurn_rad(ahead_s)) return T_B_O;
-  const Eigen::Vector3d box_O = Inverse(T_B_O).translation;
-  return Inverse(pose.T_W_B) * Pose{R_W_O, pose.T_W_B.translation - R_W_O * box_O};
 }
 
 }  // namespace

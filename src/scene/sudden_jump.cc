@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "scene/box_heading.h"
 #include "scene/late_frame.h"
 #include "scene/object_motion.h"
 #include "scene/report_issue.h"
@@ -15,7 +16,8 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   // follows from very even poses may be too narrow for a sudden move.
   constexpr double kManyBounds = 10, kSlack_m = 1, kAcceleration_mps2 = 30;
   constexpr std::size_t kFewPoints = 3;
-  if (clue.points.empty() || object.bridged) return std::nullopt;
+  const bool placed_by_points = object.estimated && object.reported;
+  if (clue.points.empty() || object.bridged || placed_by_points) return std::nullopt;
   const std::optional<Pose> stated = StatedPose(object, clue, stamp, params);
   if (!stated) return std::nullopt;
   const PredictedPose predicted = PredictPose(object, stamp, params.horizon);
@@ -31,7 +33,7 @@ std::optional<ObjectIssue> JumpOf(const MovingObject& object, Time stamp, const 
   }
   const double turn_rad = stated->rotation.angularDistance(predicted.T_W_O.rotation);
   const double limit_rad = MaxTurn_rad(ahead_s);
-  if (turn_rad <= limit_rad) return std::nullopt;
+  if (turn_rad <= limit_rad || stamp - object.t_k() > kMaxGapOfHeadings) return std::nullopt;
   return ObjectIssue{ObjectIssueKind::kTurnTooLarge, object.id, turn_rad, limit_rad};
 }
 

@@ -134,7 +134,8 @@ class TurnedHeadings : public SuddenJump {
       const Pose T_W_B = Pose::Translation(x_m(k), 4, 1);
       AddObject(frame, 1, T_W_B, seen);
       const Eigen::AngleAxisd turn(turn_rad(k), Eigen::Vector3d::UnitZ());
-      frame.poses = {{1, T_W_B * Pose{Eigen::Quaterniond(turn), Eigen::Vector3d::Zero()}}};
+      const Pose T_W_turned = T_W_B * Pose{Eigen::Quaterniond(turn), Eigen::Vector3d::Zero()};
+      frame.poses = {{1, T_W_turned * Pose::Translation(origin_x_m_, 0, 0)}};
       sum.motions_implausible += Applied(frame).motions_implausible;
     }
     scene_ = dut_.Publish();
@@ -151,6 +152,7 @@ class TurnedHeadings : public SuddenJump {
   Eigen::Vector3d Size_m() const { return scene_->FindObject(1)->solid->box_O.Size(); }
 
   Eigen::Vector3d box_m_{4, 2, 2};
+  double origin_x_m_ = 0;  // of the source's frame, in the box
   ScenePtr scene_;
 };
 
@@ -179,6 +181,16 @@ TEST_F(TurnedHeadings, OfAWalkerByFortyFiveDegreesDoNotChangeTheVelocity) {
   Drive(20, x_m, [](int k) { return k == 19 ? 0.785 : 0; });
   EXPECT_LT((Velocity_W() - Eigen::Vector3d(1.4, 0, 0)).norm(), 0.2);
   EXPECT_EQ(StatusAt(x_m(29), 2.9), SpaceStatus::kOccupied);
+}
+
+// A source whose frames are at the rear axle.
+TEST_F(TurnedHeadings, AboutAnotherPointThanTheFramesOriginChangeNothingEither) {
+  origin_x_m_ = -1.4;
+  Drive(
+      20, [](int k) { return 5 + 0.5 * k; }, [](int k) { return k / 2 % 2 == 1 ? 3.14 : 0; });
+  EXPECT_LT((Velocity_W() - Eigen::Vector3d(5, 0, 0)).norm(), 0.5);
+  EXPECT_LT(Size_m().x(), 4.6);
+  EXPECT_EQ(StatusAt(5 + 0.5 * 24, 2.4), SpaceStatus::kOccupied);
 }
 
 TEST_F(TurnedHeadings, OfABrakingCarDoNotKeepItGoing) {
@@ -231,6 +243,26 @@ TEST_F(SuddenJump, WhoTurnsRoundIsNoJump) {
     EXPECT_TRUE(Applied(frame).issues.empty()) << k;
   }
   EXPECT_NEAR(dut_.Publish()->FindObject(1)->SpeedMps(), 1.4, 0.1);
+}
+
+// It goes out of sight, turns, and comes back: its poses count from the first on.
+TEST_F(SuddenJump, WhatTurnsUnseenForASecondIsNoJump) {
+  for (const double turn_rad : {2.9, 3.14}) {
+    dut_.Reset();
+    const Eigen::AngleAxisd turn(turn_rad, Eigen::Vector3d::UnitZ());
+    for (int k = 0; k < 30; ++k) {
+      if (k >= 10 && k < 19) continue;
+      const double x_m = k < 10 ? 5 + 0.2 * k : 7 - 0.2 * (k - 10);
+      Pose T_W_B = Pose::Translation(x_m, 4, 1);
+      if (k >= 10) T_W_B.rotation = Eigen::Quaterniond(turn);
+      Frame frame = FrameAt(0.1 * k);
+      AddObject(frame, 1, T_W_B, BoxSurface({4, 2, 2}, 0.2));
+      frame.poses = {{1, T_W_B}};
+      EXPECT_TRUE(Applied(frame).issues.empty()) << turn_rad << " " << k;
+    }
+    EXPECT_NEAR(dut_.Publish()->FindObject(1)->SpeedMps(), 2, 0.2) << turn_rad;
+    EXPECT_LT(dut_.Publish()->FindObject(1)->solid->box_O.Size().x(), 4.6) << turn_rad;
+  }
 }
 
 // As hard as anything on wheels can: 10 m/s^2, and a quarter turn within half a second.
