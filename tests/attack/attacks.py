@@ -11,12 +11,10 @@ import time
 
 import calls
 import http2
-import http2_attacks
+from below_calls import AttacksBelowCalls
 from client import Client, Row
 from probe import Probe
-from server import Server
 
-STATUS = "/clearway.v1.ServerService/GetStatus"
 STATES = "/clearway.v1.CheckService/CheckStates"
 FOLLOW = "/clearway.v1.FollowService/FollowScene"
 HEAVY = ["ObjectService/PredictPoses", "OccupancyService/GetBoxOccupancy",
@@ -24,19 +22,8 @@ HEAVY = ["ObjectService/PredictPoses", "OccupancyService/GetBoxOccupancy",
          "CheckService/CheckStates", "IngestService/PushFrame"]
 
 
-class Attacks:
+class Attacks(AttacksBelowCalls):
     """Each method whose name begins with attack_ is one; it returns its rows."""
-
-    def __init__(self, program, stubs, seconds):
-        self.program, self.stubs, self.seconds = program, stubs, seconds
-
-    def server(self, *flags, **options):
-        return Server(self.program, *flags, **options)
-
-    def fill(self, client, frames=10, points=2000):
-        for i in range(1, frames + 1):
-            client.call("IngestService/PushFrame",
-                        self.stubs.push(i, 100 * i, points=points, x=float(i), seed=i))
 
     def robot(self, client):
         reply = self.stubs.check.RegisterRobotResponse()
@@ -187,32 +174,6 @@ class Attacks:
             yield Row("4 x 8 heavy batches beside single states",
                       f"p99 {beside['p99_ms']:.1f} ms, {ratio:.1f} times that alone; {done} of 32 done",
                       ratio <= 5 and done == 32)
-
-    def attack_http2(self):
-        for attack in http2_attacks.ALL:
-            yield self.below_the_calls(attack)
-
-    def below_the_calls(self, attack):
-        with self.server() as server:
-            client = Client(server.address)
-            self.fill(client, frames=3)
-            with Probe(server.address, STATUS, timeout_s=5) as probe:
-                time.sleep(1)
-                probe.take()
-                before_mb = server.resident_mb()
-                server.reset_peak()
-                told = attack(server.port, self.seconds)
-                during = probe.take()
-                more_mb = server.peak_mb() - before_mb
-                time.sleep(2)
-                after = probe.take()
-            alive = server.alive()
-            met = alive and during["most_ms"] is not None and during["most_ms"] <= 1000 and more_mb <= 1536
-            return Row(attack.__name__,
-                       f"{told}; +{more_mb:.0f} MB; others p99 {during['p99_ms']:.0f} ms, at most "
-                       f"{during['most_ms']:.0f} ms, {during['failed']} failed; after p99 "
-                       f"{after['p99_ms']:.0f} ms" if alive and during["n"] and after["n"]
-                       else f"{told}; alive: {alive}; nobody was answered", met)
 
     def attack_descriptors(self):
         worst_s, served = 0.0, 0

@@ -45,11 +45,16 @@ def message(body, compressed=False):
     return bytes([compressed]) + struct.pack(">I", len(body)) + body
 
 
+def connect(port):
+    """To a port of this machine, but from another address than honest clients have."""
+    return socket.create_connection(("127.0.0.1", port), source_address=("127.0.0.2", 0))
+
+
 class Connection:
     """To a port of this machine. `window` is what the server may send on each stream."""
 
     def __init__(self, port, window=65535, reads=True):
-        self.socket = socket.create_connection(("127.0.0.1", port))
+        self.socket = connect(port)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.closed = False
         self.send(PREFACE + frame(SETTINGS, 0, 0, struct.pack(">HI", INITIAL_WINDOW_SIZE, window)))

@@ -6,6 +6,23 @@ import tempfile
 import time
 
 
+def memory_mb(pid, key):
+    """Of a process: VmRSS is what it has, VmHWM the most since reset_peak."""
+    try:
+        with open(f"/proc/{pid}/status", encoding="ascii") as status:
+            for line in status:
+                if line.startswith(key + ":"):
+                    return int(line.split()[1]) / 1024
+    except OSError:
+        pass
+    return 0.0
+
+
+def reset_peak(pid):
+    with open(f"/proc/{pid}/clear_refs", "w", encoding="ascii") as refs:
+        refs.write("5")
+
+
 class Server:
     """Runs from construction on; `stop` or `kill` ends it."""
 
@@ -32,26 +49,15 @@ class Server:
         self.log.seek(0)
         return self.log.read().decode(errors="replace")
 
-    def _status_mb(self, key):
-        try:
-            with open(f"/proc/{self.pid}/status", encoding="ascii") as status:
-                for line in status:
-                    if line.startswith(key + ":"):
-                        return int(line.split()[1]) / 1024
-        except OSError:
-            pass
-        return 0.0
-
     def resident_mb(self):
-        return self._status_mb("VmRSS")
+        return memory_mb(self.pid, "VmRSS")
 
     def peak_mb(self):
         """The most since reset_peak."""
-        return self._status_mb("VmHWM")
+        return memory_mb(self.pid, "VmHWM")
 
     def reset_peak(self):
-        with open(f"/proc/{self.pid}/clear_refs", "w", encoding="ascii") as refs:
-            refs.write("5")
+        reset_peak(self.pid)
 
     def processor_s(self):
         with open(f"/proc/{self.pid}/stat", encoding="ascii") as stat:
