@@ -1,5 +1,6 @@
 #include "scene/box_heading.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <numbers>

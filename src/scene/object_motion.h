@@ -32,14 +32,13 @@ const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp);
 // turn round within half a second; the rest is noise of headings.
 double MaxTurn_rad(double seconds);
 
-// Whether a step turns farther than that, or in a curve that nothing takes that is as fast as the
-// point center_O of the object: then a heading is wrong.
+// Whether a heading is wrong: the step turns farther than MaxTurn_rad, or the lateral acceleration
+// of the point center_O is more than vehicles and people reach.
 bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
                  const Eigen::Vector3d& center_O);
 
-// The velocity of a step, in O, of at least kShortestStep. If it turns too far, nobody knows how
-// the object turns; it is that of center_O, about which the heading is wrong, with the turn rate
-// turn_W_radps.
+// The velocity, in O, of a step of at least kShortestStep. If the step turns too far, the velocity
+// is that of the point center_O, and the turn rate is turn_W_radps.
 Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
                      const Eigen::Vector3d& center_O,
                      const Eigen::Vector3d& turn_W_radps = Eigen::Vector3d::Zero());

@@ -174,7 +174,7 @@ TEST_F(TurnedHeadings, AreNamedAndChangeNeitherVelocityNorSize) {
   }
 }
 
-// One that may still be right is used, but nothing goes on like that.
+// The pose is used, since it may be right, but the velocity ignores its turn.
 TEST_F(TurnedHeadings, OfAWalkerByFortyFiveDegreesDoNotChangeTheVelocity) {
   box_m_ = {0.6, 0.6, 1.8};
   const auto x_m = [](int k) { return 5 + 0.14 * k; };
