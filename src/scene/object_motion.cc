@@ -30,6 +30,11 @@ std::span<const StampedPose> SinceItTurned(std::span<const StampedPose> track,
   return track;
 }
 
+Eigen::Vector3d Shortened(const Eigen::Vector3d& v, double longest) {
+  const double length = v.norm();
+  return length <= longest ? v : Eigen::Vector3d(v * (longest / length));
+}
+
 }  // namespace
 
 Eigen::Vector3d CenterOf(const Solid& solid) {
@@ -78,11 +83,20 @@ bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
 }
 
 Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
-                     const Eigen::Vector3d& center_O, const Eigen::Vector3d& turn_W_radps) {
+                     const Eigen::Vector3d& center_O, const std::optional<Twist>& until_then) {
   if (!TurnsTooFar(before, after, center_O)) return VelocityBetween(before, after);
+  constexpr double kAcceleration_mps2 = 10;
   const Pose &from = before.T_W_O, &to = after.T_W_O;
-  const Eigen::Vector3d center_W_mps =
-      (to * center_O - from * center_O) / ToSeconds(after.stamp - before.stamp);
+  const double step_s = ToSeconds(after.stamp - before.stamp);
+  Eigen::Vector3d center_W_mps = (to * center_O - from * center_O) / step_s;
+  Eigen::Vector3d turn_W_radps = Eigen::Vector3d::Zero();
+  if (until_then) {
+    turn_W_radps = from.rotation * until_then->angular;
+    const Eigen::Vector3d center_O_mps = until_then->linear + until_then->angular.cross(center_O);
+    const Eigen::Vector3d before_W_mps = from.rotation * center_O_mps;
+    center_W_mps =
+        before_W_mps + Shortened(center_W_mps - before_W_mps, kAcceleration_mps2 * step_s);
+  }
   const Eigen::Quaterniond R_O_W = to.rotation.conjugate();
   const Eigen::Vector3d angular_O = R_O_W * turn_W_radps;
   return {angular_O, R_O_W * center_W_mps - angular_O.cross(center_O)};

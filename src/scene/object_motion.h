@@ -1,6 +1,7 @@
 // How an object goes on after its newest pose.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "clearway/scene/moving_object.h"
@@ -38,10 +39,12 @@ bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
                  const Eigen::Vector3d& center_O);
 
 // The velocity, in O, of a step of at least kShortestStep. If the step turns too far, the velocity
-// is that of the point center_O, and the turn rate is turn_W_radps.
+// is that of the point center_O. `until_then` is the velocity before, in O at the pose `before`; if
+// it is known, the object then turns on as it did, and its velocity changes no faster than vehicles
+// and people accelerate: center_O is seldom the point that a wrong heading turns about.
 Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
                      const Eigen::Vector3d& center_O,
-                     const Eigen::Vector3d& turn_W_radps = Eigen::Vector3d::Zero());
+                     const std::optional<Twist>& until_then = std::nullopt);
 
 // The velocity of the last step, in O, however far it turns; zero if there is none.
 Twist LastMotionOf(std::span<const StampedPose> track);

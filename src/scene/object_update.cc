@@ -29,17 +29,12 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
 }
 
 // To that of the step that leads there from `from`, or, if it is too short, from an earlier pose.
-// The object turns as before if the step turns too far (VelocityOfStep).
 void SetVelocity(const StampedPose* from, const StampedPose& to, const Eigen::Vector3d& center_O,
                  MovingObject& object) {
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
   if (from == nullptr) return;
-  Eigen::Vector3d turn_W_radps = Eigen::Vector3d::Zero();
-  if (object.velocity_O) {
-    turn_W_radps = object.LastPose().T_W_O.rotation * object.velocity_O->angular;
-  }
-  object.velocity_O = VelocityOfStep(*from, to, center_O, turn_W_radps);
+  object.velocity_O = VelocityOfStep(*from, to, center_O, object.velocity_O);
 }
 
 // The motion between two reported poses is known from these two alone, so what was predicted or

@@ -6,9 +6,15 @@ import grpc
 
 @dataclasses.dataclass
 class Row:
+    """`safe`: all that does not depend on how fast the machine is; `fast`: the rest of the bar."""
     attack: str
     seen: str
-    met: bool
+    safe: bool
+    fast: bool
+
+    @property
+    def verdict(self):
+        return "met" if self.safe and self.fast else "NOT MET"
 
 
 class Client:
