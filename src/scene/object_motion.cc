@@ -21,6 +21,13 @@ bool StayedWithin(std::span<const StampedPose> track, double radius_m, double di
   return false;  // not known for so long
 }
 
+// To within what headings that are right are off by.
+bool HaveOneHeading(const Pose& a, const Pose& b) {
+  constexpr double kNoise_rad = 0.3;
+  static const double kCosOfHalf = std::cos(kNoise_rad / 2);
+  return std::abs(a.rotation.dot(b.rotation)) > kCosOfHalf;
+}
+
 // What comes after its last step that turns too far.
 std::span<const StampedPose> SinceItTurned(std::span<const StampedPose> track,
                                            const Eigen::Vector3d& center_O) {
@@ -71,15 +78,22 @@ double MaxTurn_rad(double seconds) {
 
 bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
                  const Eigen::Vector3d& center_O) {
-  constexpr double kNever_rad = 0.3, kSideways_mps2 = 7;
+  constexpr double kSideways_mps2 = 7;
   const Pose &from = before.T_W_O, &to = after.T_W_O;
-  static const double kCosOfHalf = std::cos(kNever_rad / 2);
-  if (std::abs(from.rotation.dot(to.rotation)) > kCosOfHalf) return false;
+  if (HaveOneHeading(from, to)) return false;
   const double turn_rad = from.rotation.angularDistance(to.rotation);
   const double step_s = ToSeconds(after.stamp - before.stamp);
   if (turn_rad > MaxTurn_rad(step_s)) return true;
   const double moved_m = (to * center_O - from * center_O).norm();
   return turn_rad * moved_m > kSideways_mps2 * step_s * step_s;
+}
+
+const StampedPose* PoseAlike(std::span<const StampedPose> track, const StampedPose& pose) {
+  constexpr Duration kLately = std::chrono::milliseconds(500);
+  const auto alike = std::find_if(track.rbegin(), track.rend(), [&](const StampedPose& before) {
+    return before.stamp + kShortestStep <= pose.stamp && HaveOneHeading(before.T_W_O, pose.T_W_O);
+  });
+  return alike == track.rend() || pose.stamp - alike->stamp > kLately ? nullptr : &*alike;
 }
 
 Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,

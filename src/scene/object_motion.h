@@ -38,6 +38,10 @@ double MaxTurn_rad(double seconds);
 bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
                  const Eigen::Vector3d& center_O);
 
+// The newest pose of half a second before with the heading of `pose`, to within 0.3 rad: if every
+// second heading is wrong, the one before the last. Null if there is none.
+const StampedPose* PoseAlike(std::span<const StampedPose> track, const StampedPose& pose);
+
 // The velocity, in O, of a step of at least kShortestStep. If the step turns too far, the velocity
 // is that of the point center_O. `until_then` is the velocity before, in O at the pose `before`; if
 // it is known, the object then turns on as it did, and its velocity changes no faster than vehicles

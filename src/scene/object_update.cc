@@ -28,12 +28,17 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
   if (object.future.empty()) object.future_velocity_O = {};
 }
 
-// To that of the step that leads there from `from`, or, if it is too short, from an earlier pose.
+// To that of the step that leads there from `from`, or, if it is too short or turns too far, from
+// an earlier pose.
 void SetVelocity(const StampedPose* from, const StampedPose& to, const Eigen::Vector3d& center_O,
                  MovingObject& object) {
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
   if (from == nullptr) return;
+  if (TurnsTooFar(*from, to, center_O)) {
+    const StampedPose* const alike = PoseAlike(object.history, to);
+    if (alike != nullptr) from = alike;
+  }
   object.velocity_O = VelocityOfStep(*from, to, center_O, object.velocity_O);
 }
 

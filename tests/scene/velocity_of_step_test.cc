@@ -1,6 +1,9 @@
 // The velocity of steps whose heading is wrong.
 #include <gtest/gtest.h>
 
+#include <span>
+#include <vector>
+
 #include "scene/object_motion.h"
 #include "support/frames.h"
 
@@ -56,6 +59,19 @@ TEST_F(VelocityOfWrongHeading, IsThatOfThePointWhereNoneIsKnownBefore) {
   EXPECT_TRUE(Of(Eigen::Vector3d::Zero(), velocity_O, after.T_W_O)
                   .isApprox(Eigen::Vector3d(kSpeed_mps, 0, 0), 1e-9));
   EXPECT_TRUE(velocity_O.angular.isZero());
+}
+
+TEST_F(VelocityOfWrongHeading, PosesOfTheSameHeadingAreAlike) {
+  std::vector<StampedPose> track;
+  for (int k = 0; k < 8; ++k) {
+    track.push_back({At(0.1 * k), Pose::Translation(5 + 0.1 * kSpeed_mps * k, 0, 1) *
+                                      TurnedBy(k % 2 == 1 ? 0.8 : 0)});
+  }
+  const auto before = std::span(track).first(7);
+  EXPECT_EQ(PoseAlike(before, track[7]), &track[5]);
+  EXPECT_EQ(PoseAlike(std::span(track).first(2), track[7]), nullptr);  // is too long ago
+  track[7].T_W_O = track[7].T_W_O * TurnedBy(2);
+  EXPECT_EQ(PoseAlike(before, track[7]), nullptr);
 }
 
 TEST_F(VelocityOfWrongHeading, FollowsTheHeadingWhereItTurnsLittle) {
