@@ -10,7 +10,8 @@ from server import Server
 STATUS = "/clearway.v1.ServerService/GetStatus"
 MOST_MB = 1536  # more memory than before
 # gRPC 1.51 has no defence against these: others are answered meanwhile only behind a proxy.
-FOR_THE_PROXY = [http2_attacks.rapid_reset, http2_attacks.rapid_reset_of_streams]
+FOR_THE_PROXY = [http2_attacks.rapid_reset, http2_attacks.rapid_reset_of_streams,
+                 http2_attacks.continuation, http2_attacks.large_headers]
 
 
 class AttacksBelowCalls:
