@@ -46,6 +46,8 @@ class AnytimeSearch {
   // Whether an earlier arrival was found, be it late. `weight`: of what is left of the way.
   bool Search(double weight, const ompl::base::Goal& goal,
               const ompl::base::PlannerTerminationCondition& until);
+  // Whether the last search ended because there was no way left to ask about.
+  bool exhausted() const { return search_.exhausted(); }
   void JoinAlongPath();
   // From now on shorter times in which places and ways are free are found; what was in the way is
   // looked at again. False if that was done as finely as it is worth.

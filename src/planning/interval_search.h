@@ -50,6 +50,8 @@ class IntervalSearch {
   bool LookFiner();
   // All of the last search.
   const std::vector<Stay>& stays() const { return stays_; }
+  // Whether the last search left no way unasked.
+  bool exhausted() const { return open_.empty(); }
 
  private:
   // A way out of a stay that may be worth looking at, from a time on.

@@ -156,12 +156,18 @@ ob::PlannerStatus SafeIntervalPlanner::solve(const ob::PlannerTerminationConditi
   return ob::PlannerStatus::TIMEOUT;
 }
 
-// A greedy search may spend all that it may ask on dead ends near the goal, the more the denser the
-// places are; one that is not comes by the other ways, too.
+// Where there is an easy way, a greedy search finds it soonest, among few places. Where there is
+// not, it may spend all that it may ask on dead ends near the goal, the more the denser the places
+// are; one that is not greedy comes by the other ways, too, or soon knows that there are none.
 bool SafeIntervalPlanner::FindEarlier(const ob::PlannerTerminationCondition& until) {
   AnytimeSearch& search = impl_->search;
-  if (!search.led() && search.Search(kGreedy, *pdef_->getGoal(), until)) return true;
-  return !until() && search.Search(1, *pdef_->getGoal(), until);
+  const auto find = [&](double weight) {
+    return !until() && search.Search(weight, *pdef_->getGoal(), until);
+  };
+  if (search.led()) return find(1);
+  const bool few = search.places() < 2 * first_batch_;
+  if (few) return find(kGreedy) || find(1);
+  return find(1) || (!search.exhausted() && find(kGreedy));
 }
 
 // Whether the objective asks for no better one.

@@ -31,9 +31,10 @@ class EarliestArrivalObjective : public ompl::base::OptimizationObjective {
 // as Karaman and Frazzoli's PRM*, "Sampling-based Algorithms for Optimal Motion Planning", 2011, in
 // batches and with the most promising edge first as Gammell et al.'s BIT*, 2015.)
 //
-// A first path is looked for greedily and, where that finds none, once more among the same places
-// by the earliest arrival; then earlier ones, with more and more places, of which only those are
-// kept that an earlier arrival can visit. A latest time that leaves little to spare makes the first
+// A first path is looked for greedily among the first batch of places; where that finds none, by
+// the earliest arrival among these and then among more, and greedily where that gives up. After a
+// path earlier ones are looked for, with more and more places, of which only those are kept that an
+// earlier arrival can visit. A latest time that leaves little to spare makes the first
 // path harder to find, not easier: there is none to be improved until one is in time. A robot is at
 // rest or at full speed: it can stop and start at once.
 //
