@@ -22,6 +22,8 @@ const char* NameOf(ObjectIssueKind kind) {
       return "CONTRADICTED";
     case ObjectIssueKind::kJumped:
       return "JUMPED";
+    case ObjectIssueKind::kStartsTooEarly:
+      return "STARTS_TOO_EARLY";
     case ObjectIssueKind::kRestarted:
       return "RESTARTED";
     case ObjectIssueKind::kBridgedTooLong:
@@ -56,6 +58,9 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
     case ObjectIssueKind::kJumped:
       return absl::StrCat("motion or pose left out at ", when, ": puts the object ", value,
                           " m from where it was predicted (limit ", limit, " m)");
+    case ObjectIssueKind::kStartsTooEarly:
+      return absl::StrCat("motion left out at ", when, ": starts ", value,
+                          " s before the object was first seen (limit ", limit, " s)");
     case ObjectIssueKind::kRestarted:
       return absl::StrCat("model restarted at ", when, ": points ", value,
                           " m from the prediction (bound ", limit, " m)");

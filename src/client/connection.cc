@@ -31,8 +31,10 @@ int Milliseconds(Duration duration) {
   return static_cast<int>(std::clamp<std::int64_t>(duration.count() / 1'000'000, 1, kMax));
 }
 
-grpc::ChannelArguments ArgumentsOf(const ConnectionOptions& options) {
+grpc::ChannelArguments ArgumentsOf(const ConnectionOptions& options, const ServerAddress& address) {
   grpc::ChannelArguments arguments;
+  // No proxy (http_proxy, grpc_proxy) leads back to this machine, unlike gRPC's default.
+  if (IsThisMachine(address)) arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   // The server's limits hold; the client sets none of its own.
   arguments.SetMaxReceiveMessageSize(-1);
   arguments.SetMaxSendMessageSize(-1);
@@ -80,7 +82,7 @@ absl::StatusOr<std::shared_ptr<Connection>> Connection::Open(const std::string& 
   impl->address = address;
   impl->options = options;
   impl->channel = grpc::experimental::CreateCustomChannelWithInterceptors(
-      target->ToTarget(), credentials->channel, ArgumentsOf(options),
+      target->ToTarget(), credentials->channel, ArgumentsOf(options, *target),
       InterceptorsFor(credentials->token));
   impl->check = v1::CheckService::NewStub(impl->channel);
   impl->follow = v1::FollowService::NewStub(impl->channel);

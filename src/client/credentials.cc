@@ -48,11 +48,6 @@ absl::StatusOr<std::string> ReadToken(const std::string& path) {
   return Bad("token_file", absl::StrCat(path, ": must hold one token, and nothing else"));
 }
 
-bool IsThisMachine(const ServerAddress& address) {
-  return !address.socket_path.empty() || address.host == "localhost" || address.host == "::1" ||
-         address.host.starts_with("127.");
-}
-
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> ReadTls(
     const ConnectionOptions& options) {
   grpc::SslCredentialsOptions tls;
@@ -99,6 +94,11 @@ class ShowTokenFactory : public grpc::experimental::ClientInterceptorFactoryInte
 };
 
 }  // namespace
+
+bool IsThisMachine(const ServerAddress& address) {
+  return !address.socket_path.empty() || address.host == "localhost" || address.host == "::1" ||
+         address.host.starts_with("127.");
+}
 
 absl::StatusOr<ClientCredentials> ReadCredentials(const ConnectionOptions& options,
                                                   const ServerAddress& address) {

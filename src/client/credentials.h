@@ -18,6 +18,8 @@ struct ClientCredentials {
   std::string token;  // empty: none
 };
 
+bool IsThisMachine(const ServerAddress& address);
+
 // Reads the files that the options name. Errors begin with the option's name.
 absl::StatusOr<ClientCredentials> ReadCredentials(const ConnectionOptions& options,
                                                   const ServerAddress& address);

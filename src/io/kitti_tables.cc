@@ -169,7 +169,7 @@ struct LabelColumns {
   std::size_t numbers;  // truncated
 };
 
-constexpr double kMaxLength_m = 100;
+constexpr double kMaxLength_m = 100, kMaxTurn_rad = 6.3;
 
 KittiBox TakeBox(Row& row, const LabelColumns& columns) {
   const std::size_t size = columns.numbers + 7, place = size + 3;
@@ -190,9 +190,11 @@ KittiBox TakeBox(Row& row, const LabelColumns& columns) {
       row.Fail(i, absl::StrCat(most == 2 ? "a truncation" : "an occlusion", " of -1 to ", most));
     }
   }
+  const double turn_rad = row.Coordinate(place + 3);
+  if (std::abs(turn_rad) > kMaxTurn_rad) row.Fail(place + 3, "an angle of -2 pi to 2 pi, in rad");
   const Eigen::Vector3d bottom_C(row.Coordinate(place), row.Coordinate(place + 1),
                                  row.Coordinate(place + 2));
-  box.T_C_B = BoxInCamera(bottom_C, box.size_m.z(), row.Coordinate(place + 3));
+  box.T_C_B = BoxInCamera(bottom_C, box.size_m.z(), turn_rad);
   return box;
 }
 

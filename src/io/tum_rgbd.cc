@@ -80,6 +80,18 @@ struct Sample {
   std::uint32_t width = 0, height = 0;  // 0 if there is none
 };
 
+// Published intrinsics are of images of one size.
+absl::Status CheckSize(const Path& folder, const Sample& sample, const DepthImage& camera) {
+  const bool is_published = camera.width > 0;
+  const bool fits = sample.width == camera.width && sample.height == camera.height;
+  if (!is_published || fits || sample.width == 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      sample.path.string(), ": ", sample.width, " x ", sample.height,
+      " pixels; the intrinsics published for ", folder.filename().string(), " are for ",
+      camera.width, " x ", camera.height, "; write those of these images to ",
+      (folder / "camera.txt").string(), " ('fx fy cx cy' in pixels)"));
+}
+
 Sample FirstOf(const Images& images, const DepthImage& camera) {
   for (const auto& [number, path] : images.depth) {
     const absl::StatusOr<DepthImage> image = ReadDepth(path, camera);
@@ -230,10 +242,12 @@ absl::StatusOr<LidarFolder> OpenTumRgbd(const Path& given, const TumRgbdOptions&
                      images->without_mask, " no mask in mask.txt"));
   }
   if (auto status = CheckMaskFiles(*images); !status.ok()) return status;
+  const Sample sample = FirstOf(*images, tables->camera);
+  if (auto status = CheckSize(folder, sample, tables->camera); !status.ok()) return status;
   *scans.left_out = tables->left_out;
   scans.left_out->Add(images->left_out);
   scans.points_of = [images](int frame) { return images->depth.at(frame); };
-  scans.read = [images, camera = tables->camera, sample = FirstOf(*images, tables->camera)](
+  scans.read = [images, camera = tables->camera, sample](
                    const Path& points, std::span<const RecordedBox>, Frame& frame) {
     const auto mask = images->masks.find(static_cast<int>(frame.sequence));
     return ReadPoints(points, mask == images->masks.end() ? nullptr : &mask->second, sample, camera,

@@ -27,6 +27,8 @@ constexpr PublishedCamera kPublished[] = {{"freiburg1", 517.3, 516.5, 318.6, 255
                                           {"freiburg2", 520.9, 521.0, 325.1, 249.7},
                                           {"freiburg3", 535.4, 539.2, 320.1, 247.6}};
 
+constexpr std::uint32_t kPublishedWidth = 640, kPublishedHeight = 480;
+
 constexpr WordFormat kImageList{LastLine::kMayBeOpen, Comments::kHash, Separators::kCommasToo};
 constexpr WordFormat kPoseList{LastLine::kEnds, Comments::kHash, Separators::kCommasToo};
 
@@ -158,7 +160,10 @@ absl::StatusOr<DepthImage> ReadTumCamera(const Path& folder) {
   }
   for (const auto& [name, fx, fy, cx, cy] : kPublished) {
     if (folder.filename().string().find(name) != std::string::npos) {
-      return CameraOf(fx, fy, cx, cy, kDepthFactor);
+      DepthImage camera = CameraOf(fx, fy, cx, cy, kDepthFactor);
+      camera.width = kPublishedWidth;
+      camera.height = kPublishedHeight;
+      return camera;
     }
   }
   return absl::NotFoundError(absl::StrCat(

@@ -43,7 +43,7 @@ absl::StatusOr<std::map<ObjectId, TumTrack>> ReadTumObjects(const std::filesyste
                                                             LeftOut& left_out);
 
 // An image without pixels: the intrinsics in the folder's camera.txt, else those published for what
-// the folder is called. NOT_FOUND if neither tells.
+// the folder is called, with the size that they are for. NOT_FOUND if neither tells.
 absl::StatusOr<DepthImage> ReadTumCamera(const std::filesystem::path& folder);
 
 // Sorts by stamps. Of the poses with one stamp the first of the file at `path` stays.

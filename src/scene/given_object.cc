@@ -11,6 +11,7 @@
 #include "clearway/geometry/solid_mesh.h"
 #include "clearway/map/voxel_key.h"
 #include "scene/group_motion.h"
+#include "scene/object_motion.h"
 
 namespace clearway {
 namespace {
@@ -56,27 +57,37 @@ absl::Status CheckPose(const std::string& pose_field, const std::string& stamp_f
                               " m about the origin"));
 }
 
-absl::Status CheckFuture(const std::string& field, const std::vector<StampedPose>& poses, Time t_k,
-                         const SceneParams& params, const FrameLimits& limits) {
+// Within the shortest step that tells a velocity.
+double SpeedBetween(const StampedPose& a, const StampedPose& b) {
+  return (b.T_W_O.translation - a.T_W_O.translation).norm() /
+         ToSeconds(std::max(b.stamp - a.stamp, kShortestStep));
+}
+
+absl::Status CheckFuture(const std::string& field, const std::vector<StampedPose>& poses,
+                         const StampedPose& now, const SceneParams& params,
+                         const FrameLimits& limits) {
   if (poses.size() > kMaxFuturePoses) {
     return absl::ResourceExhaustedError(
         absl::StrCat(field, ": ", poses.size(), " poses; the limit is ", kMaxFuturePoses));
   }
-  Time before = t_k;
+  const StampedPose* before = &now;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string stamp_field = absl::StrCat(field, ".stamps_ns[", i, "]");
-    if (auto status = CheckPose(absl::StrCat(field, ".world_from_object[", i, "]"), stamp_field,
-                                poses[i], params, limits);
-        !status.ok()) {
+    const std::string pose_field = absl::StrCat(field, ".world_from_object[", i, "]");
+    if (auto status = CheckPose(pose_field, stamp_field, poses[i], params, limits); !status.ok()) {
       return status;
     }
-    if (poses[i].stamp <= before) {
+    if (poses[i].stamp <= before->stamp) {
       return Invalid(stamp_field,
                      absl::StrCat("is ", ToNanoseconds(poses[i].stamp), ", not after ",
                                   i == 0 ? "the object's pose at " : "the one before it, ",
-                                  ToNanoseconds(before)));
+                                  ToNanoseconds(before->stamp)));
     }
-    before = poses[i].stamp;
+    if (const double speed_mps = SpeedBetween(*before, poses[i]); speed_mps > kMaxSpeed_mps) {
+      return Invalid(pose_field, absl::StrCat("is reached at ", NumberText(speed_mps),
+                                              " m/s; the limit is ", NumberText(kMaxSpeed_mps)));
+    }
+    before = &poses[i];
   }
   return absl::OkStatus();
 }
@@ -115,7 +126,7 @@ absl::Status Check(const GivenObject& given, const SceneParams& params, const Fr
   if (given.velocity_O) {
     if (auto status = CheckVelocity(*given.velocity_O); !status.ok()) return status;
   }
-  return CheckFuture("future", given.future, given.pose.stamp, params, limits);
+  return CheckFuture("future", given.future, given.pose, params, limits);
 }
 
 StampedPose Normalized(const StampedPose& pose) {
@@ -221,7 +232,8 @@ absl::Status StateFuture(ObjectId id, const std::vector<StampedPose>& poses,
   if (place == objects.end()) {
     return absl::NotFoundError(absl::StrCat("object_id: the scene has no object ", id));
   }
-  if (auto status = CheckFuture("future", poses, (*place)->t_k(), params, limits); !status.ok()) {
+  if (auto status = CheckFuture("future", poses, (*place)->history.back(), params, limits);
+      !status.ok()) {
     return status;
   }
   const MovingObject before = **place;

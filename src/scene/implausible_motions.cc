@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "scene/mended_pose.h"
 #include "scene/object_motion.h"
 #include "scene/report_issue.h"
 
@@ -18,10 +19,24 @@ std::optional<ObjectIssue> TooFast(ObjectId id, const Eigen::Vector3d& from_W,
   return ObjectIssue{ObjectIssueKind::kMotionTooFast, id, speed_mps, kMaxSpeed_mps};
 }
 
+// Whether a motion starts long before anybody saw the object, as if its stamp were of another
+// clock.
+std::optional<ObjectIssue> StartsTooEarly(const ObjectMotion& motion, Time first_seen) {
+  constexpr Duration kLongest = std::chrono::seconds(1);
+  const Duration before = first_seen - motion.from;
+  if (before <= kLongest + kNoGap) return std::nullopt;
+  return ObjectIssue{ObjectIssueKind::kStartsTooEarly, motion.id, ToSeconds(before),
+                     ToSeconds(kLongest)};
+}
+
 // What is wrong with the motion of an object that the scene knows.
 std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const MovingObject& known,
                                    Time stamp, const SceneParams& params,
                                    const FrameLimits& limits) {
+  if (!known.given()) {
+    const auto issue = StartsTooEarly(motion, std::min(stamp, known.first_seen));
+    if (issue) return issue;
+  }
   const Pose T_W_from = StartOf(motion, known, stamp, params);
   const Pose T_W_to = motion.H_W * T_W_from;
   if (const double reach_m = LargestCoordinate(T_W_to); reach_m > limits.max_coordinate_m) {
@@ -65,6 +80,7 @@ std::optional<ObjectIssue> IssueOf(const ObjectClue& clue, const MovingObject* k
   if (const auto issue = IssueOf(motion, limits)) return issue;
   if (known != nullptr) return IssueOf(motion, *known, stamp, params, limits);
   if (clue.points.empty()) return std::nullopt;
+  if (const auto issue = StartsTooEarly(motion, stamp)) return issue;
   const Eigen::Vector3d p_W = cloud.ends_W[clue.points.front()].cast<double>();
   return TooFast(motion.id, Inverse(motion.H_W) * p_W, p_W, stamp - motion.from);
 }

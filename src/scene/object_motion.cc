@@ -30,9 +30,9 @@ bool HaveOneHeading(const Pose& a, const Pose& b) {
 
 // What comes after its last step that turns too far.
 std::span<const StampedPose> SinceItTurned(std::span<const StampedPose> track,
-                                           const Eigen::Vector3d& center_O) {
+                                           const BodyBox& body) {
   for (std::size_t i = track.size(); i-- > 1;) {
-    if (TurnsTooFar(track[i - 1], track[i], center_O)) return track.subspan(i);
+    if (TurnsTooFar(track[i - 1], track[i], body)) return track.subspan(i);
   }
   return track;
 }
@@ -48,20 +48,25 @@ Eigen::Vector3d CenterOf(const Solid& solid) {
   return solid.box_O.Empty() ? Eigen::Vector3d::Zero() : solid.box_O.Center();
 }
 
+BodyBox BoxOf(const Solid& solid) {
+  if (solid.box_O.Empty()) return {};
+  return {solid.box_O.Center(), 0.5 * solid.box_O.Size()};
+}
+
 Twist GoesOn(std::span<const StampedPose> track, const Twist& last_motion_O, const Solid& solid,
              const SceneParams& params) {
   if (StayedWithin(track, solid.radius_m, params.rest_distance_m)) return {};
   if (params.motion == MotionModel::kLastMotion) return last_motion_O;
-  const Eigen::Vector3d center_O = CenterOf(solid);
-  track = SinceItTurned(track, center_O);
-  return track.size() < 2 ? last_motion_O : VelocityOfTrack(track, center_O);
+  const BodyBox body = BoxOf(solid);
+  track = SinceItTurned(track, body);
+  return track.size() < 2 ? last_motion_O : VelocityOfTrack(track, body.center_O);
 }
 
 Twist GoesOnByItself(std::span<const StampedPose> track, const Solid& solid,
                      const SceneParams& params) {
   const StampedPose* const before = StepBefore(track, track.back().stamp);
   if (before == nullptr) return GoesOn(track, {}, solid, params);
-  return GoesOn(track, VelocityOfStep(*before, track.back(), CenterOf(solid)), solid, params);
+  return GoesOn(track, VelocityOfStep(*before, track.back(), BoxOf(solid)), solid, params);
 }
 
 const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp) {
@@ -76,16 +81,17 @@ double MaxTurn_rad(double seconds) {
   return std::min(kNoise_rad + kTurnRate_radps * seconds, kMaxTurn_rad);
 }
 
-bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
-                 const Eigen::Vector3d& center_O) {
-  constexpr double kSideways_mps2 = 7;
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after, const BodyBox& body) {
+  constexpr double kInwards_mps2 = 7;
   const Pose &from = before.T_W_O, &to = after.T_W_O;
   if (HaveOneHeading(from, to)) return false;
-  const double turn_rad = from.rotation.angularDistance(to.rotation);
+  const Eigen::AngleAxisd turn(from.rotation.conjugate() * to.rotation);
   const double step_s = ToSeconds(after.stamp - before.stamp);
-  if (turn_rad > MaxTurn_rad(step_s)) return true;
-  const double moved_m = (to * center_O - from * center_O).norm();
-  return turn_rad * moved_m > kSideways_mps2 * step_s * step_s;
+  if (turn.angle() > MaxTurn_rad(step_s)) return true;
+  const double moved_m = (to * body.center_O - from * body.center_O).norm();
+  const double corner_m = body.half_size_m.cross(turn.axis().cwiseAbs()).norm();  // from the axis
+  return turn.angle() * std::max(moved_m, turn.angle() * corner_m) >
+         kInwards_mps2 * step_s * step_s;
 }
 
 const StampedPose* PoseAlike(std::span<const StampedPose> track, const StampedPose& pose) {
@@ -96,10 +102,11 @@ const StampedPose* PoseAlike(std::span<const StampedPose> track, const StampedPo
   return alike == track.rend() || pose.stamp - alike->stamp > kLately ? nullptr : &*alike;
 }
 
-Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
-                     const Eigen::Vector3d& center_O, const std::optional<Twist>& until_then) {
-  if (!TurnsTooFar(before, after, center_O)) return VelocityBetween(before, after);
+Twist VelocityOfStep(const StampedPose& before, const StampedPose& after, const BodyBox& body,
+                     const std::optional<Twist>& until_then) {
+  if (!TurnsTooFar(before, after, body)) return VelocityBetween(before, after);
   constexpr double kAcceleration_mps2 = 10;
+  const Eigen::Vector3d& center_O = body.center_O;
   const Pose &from = before.T_W_O, &to = after.T_W_O;
   const double step_s = ToSeconds(after.stamp - before.stamp);
   Eigen::Vector3d center_W_mps = (to * center_O - from * center_O) / step_s;

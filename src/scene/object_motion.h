@@ -12,6 +12,12 @@ namespace clearway {
 // The middle of the object, in O.
 Eigen::Vector3d CenterOf(const Solid& solid);
 
+// The box of what is known of a body, in O. Half a size of zero: a point.
+struct BodyBox {
+  Eigen::Vector3d center_O = Eigen::Vector3d::Zero(), half_size_m = Eigen::Vector3d::Zero();
+};
+BodyBox BoxOf(const Solid& solid);
+
 // The velocity (in O) with which an object of that track goes on: by params.motion its last motion,
 // or what fits the track, whose newest pose is the last; none if it is at rest
 // (params.rest_distance_m). Its last motion counts in any case if the last step turns too far.
@@ -33,21 +39,20 @@ const StampedPose* StepBefore(std::span<const StampedPose> track, Time stamp);
 // turn round within half a second; the rest is noise of headings.
 double MaxTurn_rad(double seconds);
 
-// Whether a heading is wrong: the step turns farther than MaxTurn_rad, or the lateral acceleration
-// of the point center_O is more than vehicles and people reach.
-bool TurnsTooFar(const StampedPose& before, const StampedPose& after,
-                 const Eigen::Vector3d& center_O);
+// Whether a heading is wrong: the step turns farther than MaxTurn_rad, or the acceleration towards
+// the middle of the turn is more than vehicles and people reach, be it that of the box's middle or
+// that of its corners about its middle.
+bool TurnsTooFar(const StampedPose& before, const StampedPose& after, const BodyBox& body);
 
 // The newest pose of half a second before with the heading of `pose`, to within 0.3 rad: if every
 // second heading is wrong, the one before the last. Null if there is none.
 const StampedPose* PoseAlike(std::span<const StampedPose> track, const StampedPose& pose);
 
 // The velocity, in O, of a step of at least kShortestStep. If the step turns too far, the velocity
-// is that of the point center_O. `until_then` is the velocity before, in O at the pose `before`; if
-// it is known, the object then turns on as it did, and its velocity changes no faster than vehicles
-// and people accelerate: center_O is seldom the point that a wrong heading turns about.
-Twist VelocityOfStep(const StampedPose& before, const StampedPose& after,
-                     const Eigen::Vector3d& center_O,
+// is that of the box's middle. `until_then` is the velocity that was known before, in O; the object
+// then turns on as it did, and its velocity changes no faster than vehicles and people accelerate:
+// the middle is seldom the point that a wrong heading turns about.
+Twist VelocityOfStep(const StampedPose& before, const StampedPose& after, const BodyBox& body,
                      const std::optional<Twist>& until_then = std::nullopt);
 
 // The velocity of the last step, in O, however far it turns; zero if there is none.

@@ -30,16 +30,16 @@ void Remember(MovingObject& object, const StampedPose& pose, Duration history) {
 
 // To that of the step that leads there from `from`, or, if it is too short or turns too far, from
 // an earlier pose.
-void SetVelocity(const StampedPose* from, const StampedPose& to, const Eigen::Vector3d& center_O,
+void SetVelocity(const StampedPose* from, const StampedPose& to, const BodyBox& body,
                  MovingObject& object) {
   const bool is_long = from != nullptr && to.stamp - from->stamp >= kShortestStep;
   if (!is_long) from = StepBefore(object.history, to.stamp);
   if (from == nullptr) return;
-  if (TurnsTooFar(*from, to, center_O)) {
+  if (TurnsTooFar(*from, to, body)) {
     const StampedPose* const alike = PoseAlike(object.history, to);
     if (alike != nullptr) from = alike;
   }
-  object.velocity_O = VelocityOfStep(*from, to, center_O, object.velocity_O);
+  object.velocity_O = VelocityOfStep(*from, to, body, object.velocity_O);
 }
 
 // The motion between two reported poses is known from these two alone, so what was predicted or
@@ -83,7 +83,7 @@ Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W, double voxel_m) {
 
 // To where its points put it. Their noise is that of registration: a track evens it out.
 void Estimate(const Pose& T_W_O, Time stamp, const SceneParams& params, MovingObject& object) {
-  SetVelocity(nullptr, {stamp, T_W_O}, CenterOf(*object.solid), object);
+  SetVelocity(nullptr, {stamp, T_W_O}, BoxOf(*object.solid), object);
   Remember(object, {stamp, T_W_O}, params.history);
   SceneParams of_track = params;
   of_track.motion = MotionModel::kTrack;
@@ -165,7 +165,7 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     if (clue.motion->from <= object.placed_at + kNoGap) ForgetPredictions(stamp, object);
     const StampedPose from{clue.motion->from, T_W_from};
-    SetVelocity(&from, {stamp, T_W_O}, CenterOf(*object.solid), object);
+    SetVelocity(&from, {stamp, T_W_O}, BoxOf(*object.solid), object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.pose != nullptr) {
     const bool is_first = !object.T_B_O;
@@ -178,8 +178,8 @@ MovingObject Moved(MovingObject object, const LabelledCloud& cloud, const Object
     const Pose T_W_O = MendedPose(T_W_T, cloud, clue.points, stamp, params, object);
     if (!is_first) ForgetPredictions(stamp, object);
     // Whoever reports a box with a wrong heading knows where it is.
-    const Eigen::Vector3d box_O = Inverse(*object.T_B_O).translation;
-    SetVelocity(nullptr, {stamp, T_W_O}, box_O, object);
+    const BodyBox told{Inverse(*object.T_B_O).translation, BoxOf(*object.solid).half_size_m};
+    SetVelocity(nullptr, {stamp, T_W_O}, told, object);
     Remember(object, {stamp, T_W_O}, params.history);
   } else if (clue.T_W_O_estimated) {
     Estimate(*clue.T_W_O_estimated, stamp, params, object);

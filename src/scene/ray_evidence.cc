@@ -113,11 +113,13 @@ bool IsSmeared(const MovingObject& object, const Pose& T_W_O, const Eigen::Vecto
   } else {
     behind_O.min[axis] = most_m + apart_m;
   }
-  const double behind_m = behind_O.max[axis] - behind_O.min[axis];
-  if (behind_m < std::max(kLeast_m, most_m - least_m)) return false;
+  const double behind_m = behind_O.max[axis] - behind_O.min[axis], seen_m = most_m - least_m;
+  if (behind_m < std::max(kLeast_m, seen_m)) return false;
   Votes votes = VotesOn(behind_O, object, T_W_O, cloud, params);
   const auto size = static_cast<double>(points.size());
-  if (votes.AreAgainst(std::max(kManyRays, 0.3 * size))) return true;
+  // The longer the smear, the less of it rays from afar or along it meet.
+  const bool is_long = behind_m >= 2 * seen_m;
+  if (votes.AreAgainst(is_long ? 0.05 * size : std::max(kManyRays, 0.3 * size))) return true;
   // One end of a long object may hide the other.
   if (std::abs(growth_O[axis]) > kMostInAFrame_m) return false;
   votes.against += HidingPoints(behind_O, apart_m, object, T_W_O, points, cloud);

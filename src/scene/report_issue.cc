@@ -9,6 +9,7 @@ void AddIssue(const ObjectIssue& issue, FrameReport& report) {
     case ObjectIssueKind::kMotionTooFast:
     case ObjectIssueKind::kContradicted:
     case ObjectIssueKind::kJumped:
+    case ObjectIssueKind::kStartsTooEarly:
       ++report.motions_implausible;
       break;
     case ObjectIssueKind::kMotionConflict:

@@ -180,6 +180,8 @@ TEST_F(KittiTracking, LeavesBadRowsOutNamingThem) {
               HasSubstr("line 5, word 11: '250' is not a length above 0, at most 100 m"));
   EXPECT_THAT(LeftOutWith(file, absl::StrReplaceAll(labels, {{"Cyclist 0", "Cyclist 3"}})),
               HasSubstr("line 4, word 4: '3' is not a truncation of -1 to 2"));
+  EXPECT_THAT(LeftOutWith(file, labels + "1 9 Car 0 0 -1.57 4 1 5 2 2 2 4 -2 2 9 -90\n"),
+              HasSubstr("line 5, word 17: '-90' is not an angle of -2 pi to 2 pi, in rad"));
   // Columns that nothing is read from are checked, too, or shifted ones would pass.
   EXPECT_THAT(LeftOutWith(file, labels + "1 9 A bus 0 -1.57 4 1 5 2 2 2 4 -2 2 9 -1.57\n"),
               HasSubstr("line 5, word 4: 'bus' is not a number"));

@@ -12,6 +12,7 @@
 namespace clearway {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -158,6 +159,9 @@ TEST_F(TumRgbd, FewerPixelsAndNearerOnes) {
   EXPECT_THAT(std::string(Open({.max_depth_m = -1}).status().message()), HasSubstr("is -1"));
 }
 
+// Of the published size: all of it at 1 m.
+std::string PublishedDepthPng() { return PngBytes(640, 480, std::vector<int>(640 * 480, 5000)); }
+
 TEST_F(TumRgbd, TheCameraIsWrittenDownOrPublished) {
   folder_.Write("camera.txt", "100 200 1.5 1 1000");  // a depth factor of its own
   EXPECT_EQ(Open()->frames.read(0)->points_S[0].z(), 5);
@@ -171,6 +175,9 @@ TEST_F(TumRgbd, TheCameraIsWrittenDownOrPublished) {
                    {"rgbd_dataset_freiburg2_desk", 520.9, 521.0, 325.1, 249.7},
                    {"rgbd_dataset_freiburg3_walking_xyz", 535.4, 539.2, 320.1, 247.6}};
   for (const auto& [name, fx, fy, cx, cy] : published) {
+    for (const char* image : {"depth/a.png", "depth/b.png", "depth/c.png"}) {
+      folder_.Write(image, PublishedDepthPng());
+    }
     std::filesystem::copy(folder_.path(),
                           folder_ / ".." / (folder_.path().filename().string() + name),
                           std::filesystem::copy_options::recursive);
@@ -178,9 +185,21 @@ TEST_F(TumRgbd, TheCameraIsWrittenDownOrPublished) {
     const auto frame = OpenTumRgbd(copy)->frames.read(0);
     std::filesystem::remove_all(copy);
     ASSERT_TRUE(frame.ok()) << frame.status();
-    EXPECT_NEAR(frame->points_S[1].x(), (2 - cx) / fx, 1e-6);
-    EXPECT_NEAR(frame->points_S[1].y(), (1 - cy) / fy, 1e-6);
+    EXPECT_NEAR(frame->points_S[642].x(), (2 - cx) / fx, 1e-6);
+    EXPECT_NEAR(frame->points_S[642].y(), (1 - cy) / fy, 1e-6);
   }
+}
+
+TEST_F(TumRgbd, PublishedIntrinsicsAreForImagesOfOneSize) {
+  std::filesystem::remove(folder_ / "camera.txt");
+  const std::filesystem::path copy = folder_.path().string() + "freiburg1";
+  std::filesystem::copy(folder_.path(), copy, std::filesystem::copy_options::recursive);
+  const absl::Status status = OpenTumRgbd(copy).status();
+  std::filesystem::remove_all(copy);
+  EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+  EXPECT_THAT(std::string(status.message()),
+              AllOf(HasSubstr("4 x 3 pixels; the intrinsics published"),
+                    HasSubstr("are for 640 x 480; write those of these images to")));
 }
 
 TEST_F(TumRgbd, StampsAreExact) {

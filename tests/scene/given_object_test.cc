@@ -229,6 +229,10 @@ TEST_F(GivenObjectTest, BadInputIsNamed) {
   given = Person();
   given.future = {{At(1), Pose{}}};
   ExpectRefused(given, "future.stamps_ns[0]: is 1000000000, not after the object's pose");
+  given.future = {{given.pose.stamp + FromSeconds(0.05), given.pose.T_W_O}};
+  given.future.push_back({given.pose.stamp + FromSeconds(0.1), given.pose.T_W_O});
+  given.future[1].T_W_O.translation.x() += 90;
+  ExpectRefused(given, "future.world_from_object[1]: is reached at 1800 m/s; the limit is 1000");
 }
 
 TEST_F(GivenObjectTest, OneTooManyIsRefused) {

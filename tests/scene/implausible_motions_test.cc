@@ -118,6 +118,37 @@ TEST_F(ImplausibleMotions, OfANewObjectTheFirstVelocityIsNotKnown) {
   EXPECT_FALSE(dut_.Publish()->FindObject(2)->velocity_O.has_value());
 }
 
+// from_stamp_ns is zero, or of a clock that is an hour or two seconds behind: without a check the
+// van would hardly move between two restarts, and its place a second ahead would be free.
+TEST_F(ImplausibleMotions, WhatStartsLongBeforeTheObjectWasSeenIsLeftOutAndNamed) {
+  constexpr double kNow_s = 1.7e9, kSpeed_mps = 5;
+  for (const double from_s : {-kNow_s, -3600.0, -2.0}) {
+    dut_.Reset();
+    for (int k = 0; k < 8; ++k) {
+      const double now_s = kNow_s + 0.1 * k, x_m = 9 + kSpeed_mps * 0.1 * k;
+      Frame frame = Showing(now_s, x_m);
+      const Time from = At(now_s - 0.1) + FromSeconds(from_s);
+      frame.motions.push_back({2, Pose::Translation(0.1 * kSpeed_mps, 0, 0), from});
+      const FrameReport report = Applied(frame);
+      ASSERT_GE(report.issues.size(), 1u) << from_s << " " << k;
+      EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kStartsTooEarly);
+      EXPECT_NEAR(report.issues[0].value, 0.1 - from_s, 0.8);
+      EXPECT_EQ(report.issues[0].limit, 1);
+      EXPECT_EQ(report.motions_implausible, 1u);
+    }
+    // From its points: motions that are left out count as none.
+    const ScenePtr scene = dut_.Publish();
+    EXPECT_NEAR(scene->FindObject(2)->SpeedMps(), kSpeed_mps, 0.5) << from_s;
+  }
+}
+
+TEST_F(ImplausibleMotions, AMotionMayStartASecondBeforeTheObjectWasSeen) {
+  Frame frame = Showing(1, 10);
+  frame.motions.push_back({2, Pose::Translation(1, 0, 0), At(0)});
+  EXPECT_EQ(Applied(frame).motions_implausible, 0u);
+  EXPECT_NEAR(dut_.Publish()->FindObject(2)->SpeedMps(), 1, 1e-9);
+}
+
 class TooFastMotions : public ImplausibleMotions {
  protected:
   void ExpectTooFast(const FrameReport& report, double speed_mps) {

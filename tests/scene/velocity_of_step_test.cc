@@ -34,12 +34,12 @@ class VelocityOfWrongHeading : public testing::Test {
 };
 
 TEST_F(VelocityOfWrongHeading, ChangesNoFasterThanVehiclesAccelerate) {
-  const Eigen::Vector3d side_O(0, -0.9, 0);  // all that was seen of it
+  const BodyBox side{{0, -0.9, 0}, {2, 0, 0.5}};  // all that was seen of it
   const StampedPose after = After(0.8);
-  ASSERT_TRUE(TurnsTooFar(before_, after, side_O));
-  const Twist velocity_O = VelocityOfStep(before_, after, side_O, until_then_);
-  const Eigen::Vector3d was_mps = Of(side_O, until_then_, before_.T_W_O);
-  EXPECT_NEAR((Of(side_O, velocity_O, after.T_W_O) - was_mps).norm(), 10 * 0.1, 1e-9);
+  ASSERT_TRUE(TurnsTooFar(before_, after, side));
+  const Twist velocity_O = VelocityOfStep(before_, after, side, until_then_);
+  const Eigen::Vector3d was_mps = Of(side.center_O, until_then_, before_.T_W_O);
+  EXPECT_NEAR((Of(side.center_O, velocity_O, after.T_W_O) - was_mps).norm(), 10 * 0.1, 1e-9);
   EXPECT_TRUE(velocity_O.angular.isApprox(until_then_.angular));
 }
 
@@ -48,14 +48,14 @@ TEST_F(VelocityOfWrongHeading, IsThatOfThePointWhereItChangesLess) {
   const StampedPose after = After(1.5);
   const Twist until_then{Eigen::Vector3d::Zero(), {kSpeed_mps + 0.9, 0, 0}};
   const Eigen::Vector3d middle_O = Eigen::Vector3d::Zero();
-  const Twist velocity_O = VelocityOfStep(before_, after, middle_O, until_then);
+  const Twist velocity_O = VelocityOfStep(before_, after, BodyBox{}, until_then);
   EXPECT_TRUE(
       Of(middle_O, velocity_O, after.T_W_O).isApprox(Eigen::Vector3d(kSpeed_mps, 0, 0), 1e-9));
 }
 
 TEST_F(VelocityOfWrongHeading, IsThatOfThePointWhereNoneIsKnownBefore) {
   const StampedPose after = After(1.5);
-  const Twist velocity_O = VelocityOfStep(before_, after, Eigen::Vector3d::Zero());
+  const Twist velocity_O = VelocityOfStep(before_, after, BodyBox{});
   EXPECT_TRUE(Of(Eigen::Vector3d::Zero(), velocity_O, after.T_W_O)
                   .isApprox(Eigen::Vector3d(kSpeed_mps, 0, 0), 1e-9));
   EXPECT_TRUE(velocity_O.angular.isZero());
@@ -74,9 +74,19 @@ TEST_F(VelocityOfWrongHeading, PosesOfTheSameHeadingAreAlike) {
   EXPECT_EQ(PoseAlike(before, track[7]), nullptr);
 }
 
+// A car at rest: its ends would swing at 9 m/s.
+TEST_F(VelocityOfWrongHeading, DoesNotMakeALongBodySpin) {
+  const StampedPose after{At(0.1), before_.T_W_O * TurnedBy(0.45)};
+  const BodyBox car{Eigen::Vector3d::Zero(), {2, 0.9, 0.8}}, person{{0, 0, 0}, {0.3, 0.2, 0.9}};
+  EXPECT_TRUE(TurnsTooFar(before_, after, car));
+  EXPECT_EQ(VelocityOfStep(before_, after, car, Twist{}), Twist{});
+  const StampedPose person_after{At(0.1), before_.T_W_O * TurnedBy(0.4)};
+  EXPECT_FALSE(TurnsTooFar(before_, person_after, person));
+}
+
 TEST_F(VelocityOfWrongHeading, FollowsTheHeadingWhereItTurnsLittle) {
   const StampedPose after = After(0.25);
-  const Twist velocity_O = VelocityOfStep(before_, after, Eigen::Vector3d::Zero(), until_then_);
+  const Twist velocity_O = VelocityOfStep(before_, after, BodyBox{}, until_then_);
   EXPECT_NEAR(velocity_O.angular.z(), 2.5, 1e-9);
 }
 

@@ -80,6 +80,13 @@ TEST_F(Connections, AsManyAsAllowedAndNoMore) {
   EXPECT_THAT(dut_->RestOfOutput(), testing::HasSubstr("limits.max_connections is 8"));
 }
 
+TEST_F(Connections, ToThisMachineGoThroughNoProxy) {
+  Start();
+  setenv("http_proxy", "http://127.0.0.1:9", 1);  // nobody listens there
+  EXPECT_TRUE(Connects(std::chrono::seconds(1)));
+  unsetenv("http_proxy");
+}
+
 TEST_F(Connections, ItsLimitIsRaisedAtStart) {
   Start();
   RememberLimit();

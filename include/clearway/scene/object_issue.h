@@ -15,6 +15,7 @@ enum class ObjectIssueKind {
   kMotionTooFast = 6,   // moves it at `value` m/s, more than kMaxSpeed_mps
   kContradicted = 7,    // puts it (or the given object lies) `value` m from its points
   kJumped = 8,          // puts it `value` m from where it was predicted, more than `limit` m
+  kStartsTooEarly = 9,  // starts `value` s before it was first seen, more than `limit` s
   // Its points came without a motion or pose and are not where it was predicted: it was dropped,
   // and a new model with the same id begins.
   kRestarted = 4,       // the points are `value` m off; the 95 % bound is `limit` m

@@ -31,8 +31,8 @@ struct FrameReport {
   std::size_t points_out_of_bounds = 0;
   std::size_t motions_ignored = 0;  // for objects whose place is not known
   // Motions and poses left out as if the frame did not have them: implausible ones (kTurnTooLarge,
-  // kMotionTooFar, kMotionTooFast, kContradicted, kJumped), and those besides another one of the
-  // same object (kMotionConflict).
+  // kMotionTooFar, kMotionTooFast, kContradicted, kJumped, kStartsTooEarly), and those besides
+  // another one of the same object (kMotionConflict).
   std::size_t motions_implausible = 0;
   std::size_t motions_conflicting = 0;
   std::size_t objects_created = 0;
