@@ -63,7 +63,7 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
                           " s before the object was first seen (limit ", limit, " s)");
     case ObjectIssueKind::kRestarted:
       return absl::StrCat("model restarted at ", when, ": points ", value,
-                          " m from the prediction (bound ", limit, " m)");
+                          " m from where it should be (limit ", limit, " m)");
     case ObjectIssueKind::kBridgedTooLong:
       return absl::StrCat("model restarted at ", when, ": no motion or pose for ", value,
                           " s (horizon ", limit, " s)");

@@ -52,7 +52,7 @@ std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight&
   return is_seldom ? std::optional(Excess{off_m, seldom_m}) : std::nullopt;
 }
 
-// By rays: they go on through the object, or through what an earlier wrong pose added to it.
+// By rays: they go on through the object.
 std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight, double mended_m,
                                   const SceneParams& params) {
   const double off_m = sight.offset.off_W.norm();
@@ -60,11 +60,7 @@ std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight
   if (off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.points, sight.cloud, params)) {
     return Excess{off_m, beside_m};
   }
-  const double two_voxels_m = 2 * object.map_O.grid().resolution_m() + mended_m;
-  const Eigen::Vector3d growth_O = sight.T_W_O.rotation.conjugate() * sight.offset.off_W;
-  const bool is_smeared = off_m > two_voxels_m && IsSmeared(object, sight.T_W_O, growth_O,
-                                                            sight.points, sight.cloud, params);
-  return is_smeared ? std::optional(Excess{off_m, two_voxels_m}) : std::nullopt;
+  return std::nullopt;
 }
 
 std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, Time stamp,

@@ -14,10 +14,7 @@ namespace clearway {
 // - the points fit the object where it was predicted: three times the 95 % bound and 0.15 m;
 // - they spread wider than the object, turned as stated, but not as predicted: 0.5 m a side;
 // - they are nearer to the prediction, within the bound: half the object's size and 1 m;
-// - rays pass through it where it is said to be: its size and 1 m;
-// - rays pass through, or end before, as much of it as is seen: two voxels and a tenth of that.
-// Then earlier motions
-//   were wrong, too, and too little so to tell from what came into sight.
+// - rays pass through it where it is said to be: its size and 1 m.
 // The report names them. Without them an object is placed by prediction and its points, or begins
 // anew (PlaceByPoints).
 void LeaveOutContradicted(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,

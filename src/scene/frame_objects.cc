@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/contradicted_placement.h"
+#include "scene/distrusted_motions.h"
 #include "scene/dropped_object.h"
 #include "scene/implausible_motions.h"
 #include "scene/late_frame.h"
@@ -91,18 +92,21 @@ ClueMap CluesOf(const Frame& frame, const LabelledCloud& cloud) {
 }
 
 ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
-                     const SceneParams& params, const FrameLimits& limits, ClueMap& clues,
-                     VoxelMap& static_map_W, FrameReport& report) {
+                     const SceneParams& params, const FrameLimits& limits, EarlierViews& views,
+                     ClueMap& clues, VoxelMap& static_map_W, FrameReport& report) {
   const SceneObjects named = WithoutLapsedIds(objects, clues, stamp, params);
   LeaveOutImplausible(named, cloud, stamp, params, limits, clues, report);
   const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues, report);
+  LeaveOutDistrusted(named, cloud, stamp, params, views, clues, report);
   LeaveOutContradicted(named, cloud, stamp, params, clues, report);
   LeaveOutJumps(named, stamp, params, clues, report);
+  const std::set<ObjectId> smeared =
+      LeaveOutMismatched(named, cloud, stamp, params, views, clues, report);
   const std::map<ObjectId, Sighting> sightings = SightingsOf(named, clues, stamp, params);
   ObjectMap continuing;
   for (const auto& object : named) {
     Continuation continuation{false};
-    if (!two_after_all.contains(object->id)) {
+    if (!two_after_all.contains(object->id) && !smeared.contains(object->id)) {
       continuation =
           ContinuationOf(*object, sightings.at(object->id), cloud, stamp, params, limits, clues);
     }

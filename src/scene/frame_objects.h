@@ -3,6 +3,7 @@
 
 #include "clearway/base/thread_pool.h"
 #include "clearway/scene/scene_builder.h"
+#include "scene/earlier_views.h"
 #include "scene/given_object.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
@@ -17,8 +18,8 @@ ClueMap CluesOf(const Frame& frame, const LabelledCloud& cloud);
 // under first ones, implausible motions are left out, and clues of points alone tell where these
 // put the object.
 ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
-                     const SceneParams& params, const FrameLimits& limits, ClueMap& clues,
-                     VoxelMap& static_map_W, FrameReport& report);
+                     const SceneParams& params, const FrameLimits& limits, EarlierViews& views,
+                     ClueMap& clues, VoxelMap& static_map_W, FrameReport& report);
 
 // Moves them, adds their points, and begins new ones; parts go along with their wholes.
 void UpdateObjects(const Frame& frame, const LabelledCloud& cloud, ClueMap clues,

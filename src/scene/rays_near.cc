@@ -24,7 +24,8 @@ CLEARWAY_MULTIVERSION void FindNear(const Eigen::Vector3f* ends, std::size_t siz
   }
 }
 
-// Of each ray of the cloud, whether it may pass the ball.
+}  // namespace
+
 std::vector<std::uint8_t> RaysNear(const LabelledCloud& cloud, const Eigen::Vector3d& center_W,
                                    double radius_m) {
   const std::size_t size = cloud.ends_W.size();
@@ -39,8 +40,6 @@ std::vector<std::uint8_t> RaysNear(const LabelledCloud& cloud, const Eigen::Vect
   }
   return is_near;
 }
-
-}  // namespace
 
 ClippedRays RaysWithin(const Aabb& box_O, const Pose& T_W_O, const LabelledCloud& cloud,
                        const SceneParams& params) {

@@ -18,6 +18,10 @@ struct ClippedRays {
   RayCloud Cloud() const { return {ends_O, kinds, origins_O}; }
 };
 
+// Of each ray of the cloud, whether it may pass the ball: 1, or 0.
+std::vector<std::uint8_t> RaysNear(const LabelledCloud& cloud, const Eigen::Vector3d& center_W,
+                                   double radius_m);
+
 // With O at that pose.
 ClippedRays RaysWithin(const Aabb& box_O, const Pose& T_W_O, const LabelledCloud& cloud,
                        const SceneParams& params);

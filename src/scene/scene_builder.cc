@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "clearway/base/number_text.h"
 #include "scene/dynamic_hits.h"
+#include "scene/earlier_views.h"
 #include "scene/frame_objects.h"
 #include "scene/frame_stamps.h"
 #include "scene/label_filter.h"
@@ -68,6 +69,7 @@ absl::Status CheckObjects(const ObjectMap& objects, const Frame& frame, const Fr
 
 SceneBuilder::SceneBuilder(const SceneParams& params, const FrameLimits& limits, ThreadPool& pool)
     : scene_(SceneSnapshot::Empty(WithinLimits(params, limits))),
+      earlier_views_(std::make_shared<const EarlierViews>()),
       corrections_(params.history),
       limits_(limits),
       pool_(&pool),
@@ -118,8 +120,9 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   ClueMap clues = CluesOf(frame, cloud);
   LeaveOutPointsOfGiven(scene_.objects, frame.stamp, scene_.params, cloud, clues, report);
   VoxelMap static_map_W = scene_.LastingMap();
-  ObjectMap objects = Continuing(scene_.objects, cloud, frame.stamp, scene_.params, limits_, clues,
-                                 static_map_W, report);
+  const auto views = std::make_shared<EarlierViews>(*earlier_views_);
+  ObjectMap objects = Continuing(scene_.objects, cloud, frame.stamp, scene_.params, limits_, *views,
+                                 clues, static_map_W, report);
   auto cast = CastIntoStatic(cloud, frame.stamp, static_map_W);  // II-B, II-C
   if (!cast.ok()) return cast.status();
   if (!late) ForgetFarBlocks(frame.T_W_S.translation, scene_.params, static_map_W);
@@ -150,6 +153,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
   if (absl::Status status = CheckBlocks("points_m", blocks, limits_); !status.ok()) return status;
 
   // Whatever takes memory comes before the first change.
+  views->Keep(std::move(cloud), frame.stamp, next_objects);
   SensorStamps sensor_stamps = WithStampOf(frame, now, sensor_stamps_, limits_);
   if (late) {
     doubts.believed_W = believed_W_;
@@ -159,6 +163,7 @@ absl::StatusOr<FrameReport> SceneBuilder::ApplyInScene(const Frame& frame) {
 
   scene_.static_map_W = std::move(static_map_W);
   scene_.dynamic_W = std::move(dynamic_W);
+  earlier_views_ = views;
   believed_W_ = std::move(doubts.believed_W);
   dropped_lately_ = std::move(dropped_lately);
   around_objects_ = std::move(around_objects);
@@ -213,6 +218,7 @@ void SceneBuilder::Reset() {
   scene_ = SceneSnapshot::Empty(scene_.params);
   scene_.version = version;
   believed_W_.clear();
+  earlier_views_ = std::make_shared<const EarlierViews>();
   dropped_lately_.clear();
   around_objects_.clear();
   corrections_ = WorldCorrections(scene_.params.history);

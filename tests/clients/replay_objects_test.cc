@@ -109,7 +109,7 @@ TEST_F(ReplayObjects, WithoutABoxAfterAGapTheModelBeginsAnewAndReplaySaysSo) {
       const Finished dut = Clearway({"replay", folder.path().string()});
       EXPECT_EQ(dut.exit_code, 0) << dut.err;
       EXPECT_THAT(dut.out, HasSubstr("object 2: model restarted at 1.6 s: points "));
-      EXPECT_THAT(dut.out, HasSubstr(" m from the prediction (bound "));
+      EXPECT_THAT(dut.out, HasSubstr(" m from where it should be (limit "));
       ExpectAt(10.3, 3);
     } else {
       const json summary = Ask({"replay", folder.path().string()});

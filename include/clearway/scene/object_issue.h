@@ -16,9 +16,9 @@ enum class ObjectIssueKind {
   kContradicted = 7,    // puts it (or the given object lies) `value` m from its points
   kJumped = 8,          // puts it `value` m from where it was predicted, more than `limit` m
   kStartsTooEarly = 9,  // starts `value` s before it was first seen, more than `limit` s
-  // Its points came without a motion or pose and are not where it was predicted: it was dropped,
-  // and a new model with the same id begins.
-  kRestarted = 4,       // the points are `value` m off; the 95 % bound is `limit` m
+  // It was dropped, and a new model with the same id begins: its points came without a motion or
+  // pose, or their motions are contradicted, and
+  kRestarted = 4,       // they are `value` m off, more than `limit` m (the 95 % bound)
   kBridgedTooLong = 5,  // its last known pose is `value` s old; the horizon is `limit` s
 };
 

@@ -20,6 +20,7 @@
 
 namespace clearway {
 
+class EarlierViews;
 struct LabelledCloud;
 
 // What became of a frame.
@@ -150,6 +151,7 @@ class SceneBuilder {
   // their id and in their O.
   std::vector<std::shared_ptr<const MovingObject>> dropped_lately_;
   std::map<ObjectId, VoxelMap> around_objects_;
+  std::shared_ptr<const EarlierViews> earlier_views_;  // never null
   WorldCorrections corrections_;
   std::map<std::string, Time> sensor_stamps_;  // newest of each sensor, within the late window
   FrameLimits limits_;
