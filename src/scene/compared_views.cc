@@ -11,13 +11,17 @@ namespace {
 
 using Places = std::vector<Eigen::Vector3d>;
 
-// Some of an object's points, evenly chosen, carried by a motion.
+// Some of an object's points, carried by a motion. Evenly chosen, but not every n-th, which may be
+// those of one beam.
 Places SomeOf(const ObjectView& view, const Pose& H_W) {
   constexpr std::size_t kMost = 128;
-  const std::size_t step = (view.points.size() + kMost - 1) / kMost;
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  const std::size_t size = view.points.size();
   Places places_W;
-  for (std::size_t i = 0; i < view.points.size(); i += step) {
-    places_W.push_back(H_W * view.cloud.ends_W[view.points[i]].cast<double>());
+  for (std::size_t i = 0; i < std::min(size, kMost); ++i) {
+    const double part = std::fmod(kGoldenRatio * static_cast<double>(i), 1.0);
+    const auto at = size > kMost ? static_cast<std::size_t>(part * static_cast<double>(size)) : i;
+    places_W.push_back(H_W * view.cloud.ends_W[view.points[at]].cast<double>());
   }
   return places_W;
 }
@@ -53,7 +57,7 @@ struct Rays {
 
   void Add(const Eigen::Vector3d& place_W, const Eigen::Vector3d& origin_W,
            const Eigen::Vector3d& direction_W, double length_m, double near_m) {
-    constexpr double kThick_m = 0.5;
+    constexpr double kThick_m = 0.3;
     const Eigen::Vector3d to_W = place_W - origin_W;
     const double along_m = to_W.dot(direction_W);
     if (along_m < 0 || to_W.squaredNorm() - along_m * along_m > near_m * near_m) return;
@@ -81,20 +85,18 @@ Tally TallyOf(const Places& places_W, const LabelledCloud& cloud, double near_m)
       rays[k].Add(places_W[k], origin_W, ray_W / length_m, length_m, near_m);
     }
   }
-  constexpr int kMany = 4;
   Tally tally;
   for (const Rays& of_place : rays) {
-    const bool is_passed = of_place.passing > 0 && of_place.passing >= kMany * of_place.ending;
-    tally.passed += is_passed;
-    tally.met += !is_passed && of_place.ending > 0;
+    tally.passed += of_place.passing > of_place.ending;
+    tally.met += of_place.ending > 0 && of_place.ending >= of_place.passing;
   }
   return tally;
 }
 
 // Whether so many of the places are passed that it is not just at the edge of what hides them.
-// Along a surface that rays graze, some always end near places that the object has left.
+// Along a surface that rays graze, and near the ground, some always end at places that are empty.
 bool AreEmpty(const Tally& left, const Tally& reached, std::size_t places) {
-  constexpr std::size_t kFew = 5, kPart = 3, kMany = 4;
+  constexpr std::size_t kFew = 5, kPart = 3, kMany = 2;
   const std::size_t passed = left.passed + reached.passed, met = left.met + reached.met;
   return passed >= kFew && kPart * passed >= places && passed >= kMany * met &&
          left.passed >= left.met && reached.passed >= reached.met;

@@ -57,10 +57,9 @@ std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight
                                   const SceneParams& params) {
   const double off_m = sight.offset.off_W.norm();
   const double beside_m = 2 * sight.offset.half_size_m + kSlack_m + mended_m;
-  if (off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.points, sight.cloud, params)) {
-    return Excess{off_m, beside_m};
-  }
-  return std::nullopt;
+  const bool is_passed_through =
+      off_m > beside_m && IsPassedThrough(object, sight.T_W_O, sight.points, sight.cloud, params);
+  return is_passed_through ? std::optional(Excess{off_m, beside_m}) : std::nullopt;
 }
 
 std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, Time stamp,

@@ -1,4 +1,4 @@
-// A source that states wrong motions for as long as it runs, and a LiDAR of few rays.
+// A source that states wrong motions, frame after frame.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,15 +12,17 @@ namespace clearway {
 namespace {
 
 constexpr double kSpeed_mps = 5, kPeriod_s = 0.1;
+constexpr SpinningLidar kFewRays{
+    .beams = 7, .azimuth_steps = 360, .lowest_rad = -0.2443, .highest_rad = 0.0175};
 
-// A car of 4 m in a hall of 80 x 24 m, that comes from x = 14 m along y = 2.5 m.
-World HallWithCar() {
+// A car of 4 m in a hall of 80 x 24 m, that comes from x = 14 m.
+World HallWithCar(double y_m) {
   World world;
   world.Add(Body::Single(kStaticLabel, "ground", Box{{80, 24, 0.1}},
                          FixedPose{Pose::Translation(0, 0, -0.05)}));
-  for (const double y_m : {-12.0, 12.0}) {
+  for (const double wall_y_m : {-12.0, 12.0}) {
     world.Add(Body::Single(kStaticLabel, "wall", Box{{80, 0.1, 40}},
-                           FixedPose{Pose::Translation(0, y_m, 0)}));
+                           FixedPose{Pose::Translation(0, wall_y_m, 0)}));
   }
   for (const double x_m : {-40.0, 40.0}) {
     world.Add(Body::Single(kStaticLabel, "wall", Box{{0.1, 24, 40}},
@@ -28,7 +30,7 @@ World HallWithCar() {
   }
   const Twist ahead{Eigen::Vector3d::Zero(), {-kSpeed_mps, 0, 0}};
   world.Add(Body::Single(1, "car", Box{{4, 1.8, 1.5}},
-                         ConstantTwist{Pose::Translation(14, 2.5, 0.75), ahead}));
+                         ConstantTwist{Pose::Translation(14, y_m, 0.75), ahead}));
   return world;
 }
 
@@ -58,19 +60,19 @@ struct Outcome {
   MovingObject car;
 };
 
-Simulation Drive(std::size_t frames) {
+Simulation Drive(std::size_t frames, const SpinningLidar& lidar, double y_m) {
   SimulationSpec spec;
-  spec.world = HallWithCar();
-  spec.sensor =
-      SpinningLidar{.beams = 7, .azimuth_steps = 360, .lowest_rad = -0.2443, .highest_rad = 0.0175};
+  spec.world = HallWithCar(y_m);
+  spec.sensor = lidar;
   spec.sensor_trajectory = FixedPose{Pose::Translation(0, 0, 1.5)};
   spec.frame_count = frames;
   return Simulation(spec);
 }
 
 // Wrong from one frame on until another.
-Outcome After(std::size_t frames, const Saying& saying, std::size_t from, std::size_t to = 100) {
-  const Simulation simulation = Drive(frames);
+Outcome After(std::size_t frames, const Saying& saying, std::size_t from, std::size_t to = 100,
+              const SpinningLidar& lidar = kFewRays, double y_m = 2.5) {
+  const Simulation simulation = Drive(frames, lidar, y_m);
   ThreadPool pool(1);
   SceneBuilder scene(SceneParams{}, FrameLimits{}, pool);
   Outcome outcome;
@@ -129,6 +131,14 @@ TEST(WrongMotionsOfACar, ThatAreHalfAsFastAreNamedLater) {
   EXPECT_GT(outcome.left_out, 10u);
   EXPECT_LE(outcome.first_s, 1.01);
   EXPECT_LT(outcome.longest_m, 9);
+}
+
+// Whose rays meet the ground just beyond it.
+TEST(WrongMotionsOfACar, FarFromALidarOfManyBeams) {
+  const Outcome outcome = After(20, ThatItStands, 1, 20, SpinningLidar::With64Beams(), 10);
+  EXPECT_GE(outcome.left_out, 13u);
+  EXPECT_LE(outcome.first_s, 0.61);
+  EXPECT_LT(outcome.longest_m, 7.5);
 }
 
 TEST(WrongMotionsOfACar, RightOnesAreNot) {
