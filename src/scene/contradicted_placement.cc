@@ -27,6 +27,7 @@ struct Sight {
 // What they are off by, and more than what, by all that speaks against that pose.
 struct Excess {
   double off_m = 0, limit_m = 0;
+  bool by_prediction = false;  // alone
 };
 
 // By the prediction: the points fit the object there, or better.
@@ -41,7 +42,7 @@ std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight&
   const GateOffset predicted = OffsetFrom(object, T_W_predicted, sight.points_W);
   const double predicted_off_m = predicted.off_W.norm();
   const bool is_as_predicted = MeetsPrediction(predicted, bound_m) && 2 * predicted_off_m < off_m;
-  if (off_m > near_m && is_as_predicted) return Excess{off_m, near_m};
+  if (off_m > near_m && is_as_predicted) return Excess{off_m, near_m, true};
   const double two_voxels_m = 2 * object.map_O.grid().resolution_m();
   if (predicted.wider_m > two_voxels_m) return std::nullopt;
   // Turned by a right angle, a car spreads beyond its box on both sides.
@@ -49,7 +50,7 @@ std::optional<Excess> AgainstPrediction(const MovingObject& object, const Sight&
   if (beyond_m > wide_m) return Excess{beyond_m, wide_m};
   const double seldom_m = kManyBounds * bound_m + kNoise_m + mended_m;
   const bool is_seldom = off_m > seldom_m && predicted_off_m == 0;
-  return is_seldom ? std::optional(Excess{off_m, seldom_m}) : std::nullopt;
+  return is_seldom ? std::optional(Excess{off_m, seldom_m, true}) : std::nullopt;
 }
 
 // By rays: they go on through the object.
@@ -63,7 +64,7 @@ std::optional<Excess> AgainstRays(const MovingObject& object, const Sight& sight
 }
 
 std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, Time stamp,
-                               const SceneParams& params) {
+                               bool may_be_predicted, const SceneParams& params) {
   constexpr double kManySigmas = 3;  // of a pose that is mended
   // What comes into sight at the other end of an object may lie so far from what was seen of it.
   constexpr double kLongestGap_m = 30;
@@ -74,15 +75,14 @@ std::optional<Excess> ExcessOf(const MovingObject& object, const Sight& sight, T
   if (off_m > near_m + kLongestGap_m && sight.points.size() >= kManyPoints) {
     return Excess{off_m, near_m};
   }
-  if (auto excess = AgainstPrediction(object, sight, stamp, near_m, mended_m, params)) {
-    return excess;
-  }
+  const auto excess = AgainstPrediction(object, sight, stamp, near_m, mended_m, params);
+  if (excess && (may_be_predicted || !excess->by_prediction)) return excess;
   return off_m > 0 ? AgainstRays(object, sight, mended_m, params) : std::nullopt;
 }
 
-std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const LabelledCloud& cloud,
-                                           Time stamp, const SceneParams& params,
-                                           const ObjectClue& clue) {
+std::optional<Excess> ContradictionOf(const MovingObject& object, const LabelledCloud& cloud,
+                                      Time stamp, bool may_be_predicted, const SceneParams& params,
+                                      const ObjectClue& clue) {
   constexpr std::size_t kFewPoints = 3;  // may all be labelled wrongly
   if (clue.points.size() < kFewPoints) return std::nullopt;
   const std::optional<Pose> T_W_O = StatedPose(object, clue, stamp, params);
@@ -91,21 +91,23 @@ std::optional<ObjectIssue> ContradictionOf(const MovingObject& object, const Lab
   sight.offset = OffsetFrom(object, *T_W_O, sight.points_W);
   const double four_voxels_m = 4 * object.map_O.grid().resolution_m();
   const bool fits = sight.offset.off_W.isZero(0) && sight.offset.wider_m <= four_voxels_m;
-  const auto excess = fits ? std::nullopt : ExcessOf(object, sight, stamp, params);
-  if (!excess) return std::nullopt;
-  return ObjectIssue{ObjectIssueKind::kContradicted, object.id, excess->off_m, excess->limit_m};
+  return fits ? std::nullopt : ExcessOf(object, sight, stamp, may_be_predicted, params);
 }
 
 }  // namespace
 
 void LeaveOutContradicted(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
-                          const SceneParams& params, ClueMap& clues, FrameReport& report) {
+                          const SceneParams& params, EarlierViews& views, ClueMap& clues,
+                          FrameReport& report) {
   for (const auto& object : objects) {
     const auto clue = clues.find(object->id);
     if (clue == clues.end() || object->given() || IsNewerThan(*object, stamp)) continue;
-    const auto issue = ContradictionOf(*object, cloud, stamp, params, clue->second);
-    if (!issue) continue;
-    AddIssue(*issue, report);
+    if (!clue->second.Places()) continue;
+    const auto excess =
+        ContradictionOf(*object, cloud, stamp, views.MayDoubt(object->id), params, clue->second);
+    views.NoteDoubt(object->id, stamp, excess && excess->by_prediction);
+    if (!excess) continue;
+    AddIssue({ObjectIssueKind::kContradicted, object->id, excess->off_m, excess->limit_m}, report);
     clue->second.motion = nullptr;
     clue->second.pose = nullptr;
   }

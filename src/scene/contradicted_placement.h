@@ -2,6 +2,7 @@
 #pragma once
 
 #include "clearway/scene/scene_builder.h"
+#include "scene/earlier_views.h"
 #include "scene/given_object.h"
 #include "scene/labelled_cloud.h"
 #include "scene/object_update.h"
@@ -15,9 +16,13 @@ namespace clearway {
 // - they spread wider than the object, turned as stated, but not as predicted: 0.5 m a side;
 // - they are nearer to the prediction, within the bound: half the object's size and 1 m;
 // - rays pass through it where it is said to be: its size and 1 m.
+// The first and the third rest on the prediction. They count for three frames in a row: the side of
+// a long object that fills what is seen of it looks alike wherever it goes, and the prediction may
+// be what is wrong.
 // The report names them. Without them an object is placed by prediction and its points, or begins
 // anew (PlaceByPoints).
 void LeaveOutContradicted(const SceneObjects& objects, const LabelledCloud& cloud, Time stamp,
-                          const SceneParams& params, ClueMap& clues, FrameReport& report);
+                          const SceneParams& params, EarlierViews& views, ClueMap& clues,
+                          FrameReport& report);
 
 }  // namespace clearway

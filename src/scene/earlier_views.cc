@@ -70,6 +70,22 @@ std::optional<Mismatch> EarlierViews::Judge(ObjectId id, const ObjectClue& clue,
   return distrust->second.mismatch;
 }
 
+bool EarlierViews::MayDoubt(ObjectId id) const {
+  constexpr int kMost = 3;
+  const auto doubts = doubts_.find(id);
+  return doubts == doubts_.end() || doubts->second.in_a_row < kMost;
+}
+
+void EarlierViews::NoteDoubt(ObjectId id, Time stamp, bool doubted) {
+  if (!doubted) {
+    doubts_.erase(id);
+    return;
+  }
+  Doubts& doubts = doubts_[id];
+  ++doubts.in_a_row;
+  doubts.newest = stamp;
+}
+
 bool EarlierViews::IsTimeFor(const LabelledCloud& cloud, Time stamp) const {
   constexpr Duration kApart = std::chrono::milliseconds(500);
   constexpr Duration kLeast = std::chrono::milliseconds(200);
@@ -102,6 +118,7 @@ void EarlierViews::Keep(LabelledCloud cloud, Time stamp, const SceneObjects& obj
   newest_ = stamp;
   for (const auto& object : objects) GoOn(*object, stamp);
   std::erase_if(views_, [&](const View& view) { return stamp - view.stamp > kKept; });
+  std::erase_if(doubts_, [&](const auto& entry) { return stamp - entry.second.newest > kKept; });
   std::erase_if(distrusted_,
                 [&](const auto& entry) { return stamp - entry.second.judged_at > kKept; });
   if (IsTimeFor(cloud, stamp)) {

@@ -27,6 +27,11 @@ class EarlierViews {
   std::optional<Mismatch> Judge(ObjectId id, const ObjectClue& clue, const PositionBound& bound,
                                 const LabelledCloud& cloud, Time stamp, const SceneParams& params);
 
+  // Whether a prediction alone may speak against what is said of the object: not after it did so
+  // in three frames in a row.
+  bool MayDoubt(ObjectId id) const;
+  void NoteDoubt(ObjectId id, Time stamp, bool doubted);
+
   // Ends a frame, after which the scene has those objects. Keeps its cloud if it is time for
   // another view, and forgets old ones.
   void Keep(LabelledCloud cloud, Time stamp, const SceneObjects& objects);
@@ -53,6 +58,11 @@ class EarlierViews {
     Time judged_at;
   };
 
+  struct Doubts {
+    int in_a_row = 0;
+    Time newest;
+  };
+
   // H_W from the view on; none if a motion between is missing.
   static std::optional<Pose> Followed(const ObjectClue& clue, Time stamp, Said& said);
   std::optional<Mismatch> MismatchWithViews(ObjectId id, const ObjectClue& clue,
@@ -64,6 +74,7 @@ class EarlierViews {
 
   std::vector<View> views_;  // the oldest first
   std::map<ObjectId, Distrust> distrusted_;
+  std::map<ObjectId, Doubts> doubts_;
   std::map<ObjectId, Pose> T_W_B_now_;  // of the frame that is judged
   Time newest_ = Time::min();
 };

@@ -98,7 +98,7 @@ ObjectMap Continuing(const SceneObjects& objects, const LabelledCloud& cloud, Ti
   LeaveOutImplausible(named, cloud, stamp, params, limits, clues, report);
   const std::set<ObjectId> two_after_all = GatherUnderFirstIds(named, clues, report);
   LeaveOutDistrusted(named, cloud, stamp, params, views, clues, report);
-  LeaveOutContradicted(named, cloud, stamp, params, clues, report);
+  LeaveOutContradicted(named, cloud, stamp, params, views, clues, report);
   LeaveOutJumps(named, stamp, params, clues, report);
   const std::set<ObjectId> smeared =
       LeaveOutMismatched(named, cloud, stamp, params, views, clues, report);

@@ -208,6 +208,35 @@ TEST_F(ContradictedPlacement, WhatPassesAGapIsAsLongAsItIs) {
   EXPECT_GT(Object().solid->box_O.Size().y(), 15);
 }
 
+// The same at 8 m/s, with a pause or a start without motions and poses. Its side fills the gap: its
+// points alone say that it stands.
+TEST_F(ContradictedPlacement, WhatFillsAGapGoesAsItIsSaidTo) {
+  for (const bool with_poses : {false, true}) {
+    for (const int silent_until : {4, 14}) {
+      dut_.Reset();
+      std::size_t left_out = 0;
+      for (int k = 0; k < 24; ++k) {
+        Frame frame = FrameAt(0.1 * k);
+        const Pose T_W_B = Pose::Translation(15, -9 + 0.8 * k, 1);
+        for (const Eigen::Vector3d& p_B : Facing({2, 22, 2}, T_W_B.translation)) {
+          const Eigen::Vector3d p_W = T_W_B * p_B;
+          const Eigen::Vector3d in_wall_W = 7 / p_W.x() * p_W;
+          const bool is_hidden = std::abs(in_wall_W.y()) > 0.5;
+          AddPoint(frame, is_hidden ? kStaticLabel : 5, is_hidden ? in_wall_W : p_W);
+        }
+        const bool is_silent = k < silent_until && k >= silent_until - 4;
+        if (!is_silent && with_poses) frame.poses.push_back({5, T_W_B});
+        if (!is_silent && !with_poses && k > 0) {
+          frame.motions.push_back({5, Pose::Translation(0, 0.8, 0), At(0.1 * (k - 1))});
+        }
+        left_out += Applied(frame).motions_implausible;
+      }
+      EXPECT_LE(left_out, 4u);
+      EXPECT_NEAR(Object().SpeedMps(), 8, 0.5) << with_poses << silent_until;
+    }
+  }
+}
+
 // Its poses are turned by a right angle from one frame on.
 TEST_F(ContradictedPlacement, ABoxThatIsTurnedIntoItsWidthIsLeftOut) {
   ShowMoving(true);
