@@ -105,15 +105,15 @@ bool AreEmpty(const Tally& left, const Tally& reached, std::size_t places) {
 }  // namespace
 
 std::optional<Mismatch> MismatchOf(const ObjectView& then, const ObjectView& now, const Pose& H_W,
-                                   double bound_m, const SceneParams& params) {
+                                   double seconds, double bound_m, const SceneParams& params) {
   constexpr double kSlack_m = 1, kManySigmas = 3;
-  constexpr double kOfItsWay = 0.2;  // stamps that are off by a tenth of a second
-  constexpr double kApart_m = 0.5;   // nearer to the ends rays tell little
+  constexpr double kStampsOff_s = 0.1, kOfItsWay = 0.2;
+  constexpr double kApart_m = 0.5;  // nearer to the ends rays tell little
   const Places then_W = SomeOf(then, H_W), now_W = SomeOf(now, Pose());
   const Eigen::Vector3d mean_W = MeanOf(then_W), step_W = MeanOf(now_W) - mean_W;
   const double way_m = (mean_W - Inverse(H_W) * mean_W).norm();
-  const double limit_m =
-      kSlack_m + bound_m + kOfItsWay * way_m + kManySigmas * params.object_pose_error_m;
+  const double limit_m = kSlack_m + bound_m + std::min(kOfItsWay, kStampsOff_s / seconds) * way_m +
+                         kManySigmas * params.object_pose_error_m;
   if (2 * step_W.norm() < limit_m) return std::nullopt;
   const Eigen::Vector3d along = step_W.normalized();
   const Span before = SpanOf(then_W, along), after = SpanOf(now_W, along);

@@ -21,13 +21,13 @@ struct Mismatch {
   double off_m = 0, limit_m = 0;
 };
 
-// Compares a view with an earlier one, since which the object is said to have moved by H_W, to
-// within `bound_m`. They do not match if
+// Compares a view with one of `seconds` earlier, since which the object is said to have moved by
+// H_W, to within `bound_m`. They do not match if
 // - both ends of what is seen lie farther than H_W carries those of the earlier view, by more than
 //   the limit, and
 // - rays tell that this is no other part of a long object: they go on through where the other view
 //   saw it, and would have met it if it were rigid and had moved so.
 std::optional<Mismatch> MismatchOf(const ObjectView& then, const ObjectView& now, const Pose& H_W,
-                                   double bound_m, const SceneParams& params);
+                                   double seconds, double bound_m, const SceneParams& params);
 
 }  // namespace clearway

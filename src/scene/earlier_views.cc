@@ -8,9 +8,8 @@
 namespace clearway {
 namespace {
 
-constexpr Duration kKept = std::chrono::milliseconds(1500);
-constexpr std::size_t kFewPoints = 10;
-constexpr std::size_t kMostViews = 5;
+constexpr Duration kKept = std::chrono::milliseconds(1500);  // what was found of an object
+constexpr std::size_t kFewPoints = 4;
 
 }  // namespace
 
@@ -33,36 +32,42 @@ std::optional<Pose> EarlierViews::Followed(const ObjectClue& clue, Time stamp, S
   return said.moved.back().H_W;
 }
 
-std::optional<Mismatch> EarlierViews::MismatchWithViews(ObjectId id, const ObjectClue& clue,
-                                                        const PositionBound& bound,
-                                                        const LabelledCloud& cloud, Time stamp,
-                                                        const SceneParams& params) {
-  constexpr Duration kLong = std::chrono::seconds(1);
+std::optional<EarlierViews::Distrust> EarlierViews::MismatchWithViews(
+    ObjectId id, const ObjectClue& clue, const PositionBound& bound, const LabelledCloud& cloud,
+    Time stamp, const SceneParams& params) {
   constexpr double kAhead_s = 0.2;  // so far it tells of the noise of poses, then of manoeuvres
-  bool was_followed_long = false;
-  std::optional<Mismatch> mismatch;
-  for (View& view : views_) {
-    const auto said = view.said.find(id);
-    if (said == view.said.end()) continue;
+  constexpr Duration kLeast = std::chrono::seconds(1), kMost = std::chrono::milliseconds(1500);
+  Duration followed{};  // for how long nothing speaks against it
+  for (auto view = views_.rbegin(); view != views_.rend(); ++view) {
+    const auto said = view->said.find(id);
+    if (said == view->said.end()) continue;
     const std::optional<Pose> H_W = Followed(clue, stamp, said->second);
     if (!H_W || clue.points.size() < kFewPoints) continue;
-    was_followed_long |= stamp - view.stamp >= kLong;
-    if (mismatch) continue;
-    mismatch = MismatchOf({*view.cloud, view.cloud->object_hits.at(id)}, {cloud, clue.points}, *H_W,
-                          bound.At(std::min(ToSeconds(stamp - view.stamp), kAhead_s)), params);
+    const Duration ago = stamp - view->stamp;
+    const double seconds = ToSeconds(ago);
+    const auto mismatch =
+        MismatchOf({*view->cloud, view->cloud->object_hits.at(id)}, {cloud, clue.points}, *H_W,
+                   seconds, bound.At(std::min(seconds, kAhead_s)), params);
+    if (mismatch) return Distrust{*mismatch, stamp, std::clamp(ago, kLeast, kMost)};
+    followed = std::max(followed, ago);
   }
-  if (!mismatch && was_followed_long) distrusted_.erase(id);
-  return mismatch;
+  const auto distrust = distrusted_.find(id);
+  if (distrust != distrusted_.end() && followed >= distrust->second.least) {
+    distrusted_.erase(distrust);
+  }
+  return std::nullopt;
 }
 
 std::optional<Mismatch> EarlierViews::Judge(ObjectId id, const ObjectClue& clue,
                                             const PositionBound& bound, const LabelledCloud& cloud,
                                             Time stamp, const SceneParams& params) {
   if (clue.pose != nullptr) T_W_B_now_[id] = clue.pose->T_W_B;
-  if (const auto mismatch = MismatchWithViews(id, clue, bound, cloud, stamp, params)) {
+  if (const auto found = MismatchWithViews(id, clue, bound, cloud, stamp, params)) {
     // The row begins anew: from here on what is said may be right.
     for (View& view : views_) view.said.erase(id);
-    distrusted_[id] = {*mismatch, stamp};
+    const auto before = distrusted_.find(id);
+    const Duration least = before == distrusted_.end() ? Duration{} : before->second.least;
+    distrusted_[id] = {found->mismatch, stamp, std::max(found->least, least)};
   }
   const auto distrust = distrusted_.find(id);
   if (distrust == distrusted_.end()) return std::nullopt;
@@ -84,6 +89,18 @@ void EarlierViews::NoteDoubt(ObjectId id, Time stamp, bool doubted) {
   Doubts& doubts = doubts_[id];
   ++doubts.in_a_row;
   doubts.newest = stamp;
+}
+
+// The older, the farther apart: of 0.5, 1, 1.5 and 2 s ago, say.
+void EarlierViews::ForgetViews(Time stamp) {
+  constexpr Duration kLong = std::chrono::seconds(1), kLongest = std::chrono::seconds(2);
+  std::erase_if(views_, [&](const View& view) { return stamp - view.stamp > kLongest; });
+  for (std::size_t i = 1; i + 1 < views_.size(); ++i) {
+    const Duration older = stamp - views_[i - 1].stamp, newer = stamp - views_[i + 1].stamp;
+    if (newer < kLong || 2 * older > 3 * newer) continue;
+    views_.erase(views_.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
 }
 
 bool EarlierViews::IsTimeFor(const LabelledCloud& cloud, Time stamp) const {
@@ -117,12 +134,11 @@ void EarlierViews::Keep(LabelledCloud cloud, Time stamp, const SceneObjects& obj
   if (IsLate(stamp)) return;
   newest_ = stamp;
   for (const auto& object : objects) GoOn(*object, stamp);
-  std::erase_if(views_, [&](const View& view) { return stamp - view.stamp > kKept; });
+  ForgetViews(stamp);
   std::erase_if(doubts_, [&](const auto& entry) { return stamp - entry.second.newest > kKept; });
   std::erase_if(distrusted_,
                 [&](const auto& entry) { return stamp - entry.second.judged_at > kKept; });
   if (IsTimeFor(cloud, stamp)) {
-    if (views_.size() == kMostViews) views_.erase(views_.begin());
     cloud.labels = {};
     cloud.kinds = {};
     View view{stamp, std::make_shared<const LabelledCloud>(std::move(cloud)), {}};

@@ -1,4 +1,4 @@
-// Views of the last second or two, and what was said of their objects since.
+// Views of the last two seconds, and what was said of their objects since.
 #pragma once
 
 #include <map>
@@ -16,7 +16,8 @@ namespace clearway {
 // from one frame to the next errors are small, but they add up. A value; copies share the clouds.
 class EarlierViews {
  public:
-  // Whether views contradicted what is said of the object, less than a second ago.
+  // Whether views contradicted what is said of the object, and have not agreed with it since for as
+  // long as it took to tell: for 1 to 1.5 s.
   bool Distrusts(ObjectId id) const { return distrusted_.contains(id); }
 
   // Whether a frame is late: it is not judged.
@@ -56,6 +57,7 @@ class EarlierViews {
   struct Distrust {
     Mismatch mismatch;
     Time judged_at;
+    Duration least;  // for which it has to be right
   };
 
   struct Doubts {
@@ -65,11 +67,12 @@ class EarlierViews {
 
   // H_W from the view on; none if a motion between is missing.
   static std::optional<Pose> Followed(const ObjectClue& clue, Time stamp, Said& said);
-  std::optional<Mismatch> MismatchWithViews(ObjectId id, const ObjectClue& clue,
+  std::optional<Distrust> MismatchWithViews(ObjectId id, const ObjectClue& clue,
                                             const PositionBound& bound, const LabelledCloud& cloud,
                                             Time stamp, const SceneParams& params);
   // Where a motion was left out for another reason, the object went as the scene has it.
   void GoOn(const MovingObject& object, Time stamp);
+  void ForgetViews(Time stamp);
   bool IsTimeFor(const LabelledCloud& cloud, Time stamp) const;
 
   std::vector<View> views_;  // the oldest first

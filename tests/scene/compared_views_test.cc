@@ -51,7 +51,7 @@ std::optional<Mismatch> Compared(const std::vector<Thing>& then, const std::vect
                                  double said_m, double bound_m = 0) {
   const LabelledCloud before = Scan(then), after = Scan(now);
   return MismatchOf({before, before.object_hits.at(kLorry)}, {after, after.object_hits.at(kLorry)},
-                    Pose::Translation(0, said_m, 0), bound_m, SceneParams{});
+                    Pose::Translation(0, said_m, 0), 0.5, bound_m, SceneParams{});
 }
 
 TEST(ComparedViews, MatchIfItMovedAsSaid) {
@@ -83,9 +83,9 @@ TEST(ComparedViews, TellOfTheNearEndAlone) {
   const LabelledCloud before = Scan(coming(20)), after = Scan(coming(17));
   const ObjectView then{before, before.object_hits.at(kLorry)};
   const ObjectView now{after, after.object_hits.at(kLorry)};
-  EXPECT_FALSE(MismatchOf(then, now, Pose::Translation(-3, 0, 0), 0, {}));
-  EXPECT_TRUE(MismatchOf(then, now, Pose(), 0, {}));
-  EXPECT_TRUE(MismatchOf(now, then, Pose(), 0, {}));
+  EXPECT_FALSE(MismatchOf(then, now, Pose::Translation(-3, 0, 0), 0.5, 0, {}));
+  EXPECT_TRUE(MismatchOf(then, now, Pose(), 0.5, 0, {}));
+  EXPECT_TRUE(MismatchOf(now, then, Pose(), 0.5, 0, {}));
 }
 
 // Of a lorry of 16 m, seen through a gap of 4 m: nobody can tell.

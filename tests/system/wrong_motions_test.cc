@@ -11,30 +11,35 @@
 namespace clearway {
 namespace {
 
-constexpr double kSpeed_mps = 5, kPeriod_s = 0.1;
+constexpr double kPeriod_s = 0.1;
 constexpr SpinningLidar kFewRays{
     .beams = 7, .azimuth_steps = 360, .lowest_rad = -0.2443, .highest_rad = 0.0175};
 
-// A car of 4 m in a hall of 80 x 24 m, that comes from x = 14 m.
-World HallWithCar(double y_m) {
+// A car of 4 m, which goes against x.
+struct Car {
+  double speed_mps = 5, x_m = 14, y_m = 2.5;
+};
+
+// In a hall of 80 x 32 m.
+World HallWith(const Car& car) {
   World world;
-  world.Add(Body::Single(kStaticLabel, "ground", Box{{80, 24, 0.1}},
+  world.Add(Body::Single(kStaticLabel, "ground", Box{{80, 32, 0.1}},
                          FixedPose{Pose::Translation(0, 0, -0.05)}));
-  for (const double wall_y_m : {-12.0, 12.0}) {
+  for (const double wall_y_m : {-16.0, 16.0}) {
     world.Add(Body::Single(kStaticLabel, "wall", Box{{80, 0.1, 40}},
                            FixedPose{Pose::Translation(0, wall_y_m, 0)}));
   }
   for (const double x_m : {-40.0, 40.0}) {
-    world.Add(Body::Single(kStaticLabel, "wall", Box{{0.1, 24, 40}},
+    world.Add(Body::Single(kStaticLabel, "wall", Box{{0.1, 32, 40}},
                            FixedPose{Pose::Translation(x_m, 0, 0)}));
   }
-  const Twist ahead{Eigen::Vector3d::Zero(), {-kSpeed_mps, 0, 0}};
+  const Twist ahead{Eigen::Vector3d::Zero(), {-car.speed_mps, 0, 0}};
   world.Add(Body::Single(1, "car", Box{{4, 1.8, 1.5}},
-                         ConstantTwist{Pose::Translation(14, y_m, 0.75), ahead}));
+                         ConstantTwist{Pose::Translation(car.x_m, car.y_m, 0.75), ahead}));
   return world;
 }
 
-// What a source says of a car that goes 0.5 m a frame.
+// What a source says of the car.
 using Saying = std::function<void(double seconds, Frame& frame)>;
 
 void NothingWrong(double, Frame&) {}
@@ -44,13 +49,15 @@ void TheOtherWay(double, Frame& frame) {
 void ThatItStands(double, Frame& frame) {
   for (ObjectMotion& motion : frame.motions) motion.H_W = Pose();
 }
-void HalfTheWay(double, Frame& frame) {
-  for (ObjectMotion& motion : frame.motions) motion.H_W.translation *= 0.5;
+Saying PartOfTheWay(double part) {
+  return [part](double, Frame& frame) {
+    for (ObjectMotion& motion : frame.motions) motion.H_W.translation *= part;
+  };
 }
 // As of another car that goes the other way.
 void AnotherBox(double seconds, Frame& frame) {
   frame.motions.clear();
-  frame.poses.push_back({1, Pose::Translation(8 + kSpeed_mps * seconds, -2.5, 0.75)});
+  frame.poses.push_back({1, Pose::Translation(8 + 5 * seconds, -2.5, 0.75)});
 }
 
 struct Outcome {
@@ -60,9 +67,9 @@ struct Outcome {
   MovingObject car;
 };
 
-Simulation Drive(std::size_t frames, const SpinningLidar& lidar, double y_m) {
+Simulation Drive(std::size_t frames, const SpinningLidar& lidar, const Car& car) {
   SimulationSpec spec;
-  spec.world = HallWithCar(y_m);
+  spec.world = HallWith(car);
   spec.sensor = lidar;
   spec.sensor_trajectory = FixedPose{Pose::Translation(0, 0, 1.5)};
   spec.frame_count = frames;
@@ -71,8 +78,8 @@ Simulation Drive(std::size_t frames, const SpinningLidar& lidar, double y_m) {
 
 // Wrong from one frame on until another.
 Outcome After(std::size_t frames, const Saying& saying, std::size_t from, std::size_t to = 100,
-              const SpinningLidar& lidar = kFewRays, double y_m = 2.5) {
-  const Simulation simulation = Drive(frames, lidar, y_m);
+              const SpinningLidar& lidar = kFewRays, const Car& car = {}) {
+  const Simulation simulation = Drive(frames, lidar, car);
   ThreadPool pool(1);
   SceneBuilder scene(SceneParams{}, FrameLimits{}, pool);
   Outcome outcome;
@@ -94,10 +101,12 @@ Outcome After(std::size_t frames, const Saying& saying, std::size_t from, std::s
 void ExpectFollowed(const Outcome& outcome, std::size_t frames) {
   const MovingObject& car = outcome.car;
   const Eigen::Vector3d center_W = car.history.back().T_W_O * car.solid->box_O.Center();
-  EXPECT_NEAR(center_W.x(), 14 - kSpeed_mps * kPeriod_s * static_cast<double>(frames - 1), 0.5);
-  EXPECT_NEAR(center_W.y(), 2.5, 0.5);
+  const Car truth;
+  const double seconds = kPeriod_s * static_cast<double>(frames - 1);
+  EXPECT_NEAR(center_W.x(), truth.x_m - truth.speed_mps * seconds, 0.5);
+  EXPECT_NEAR(center_W.y(), truth.y_m, 0.5);
   EXPECT_NEAR(car.solid->box_O.Size().x(), 4, 0.6);
-  EXPECT_NEAR(car.SpeedMps(), kSpeed_mps, 0.5);
+  EXPECT_NEAR(car.SpeedMps(), truth.speed_mps, 0.5);
 }
 
 struct Case {
@@ -127,18 +136,28 @@ INSTANTIATE_TEST_SUITE_P(Of, WrongMotions,
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(WrongMotionsOfACar, ThatAreHalfAsFastAreNamedLater) {
-  const Outcome outcome = After(40, HalfTheWay, 1);
+  const Outcome outcome = After(40, PartOfTheWay(0.5), 1);
   EXPECT_GT(outcome.left_out, 10u);
   EXPECT_LE(outcome.first_s, 1.01);
   EXPECT_LT(outcome.longest_m, 9);
 }
 
-// Whose rays meet the ground just beyond it.
+TEST(WrongMotionsOfACar, ThatAreAQuarterTooSlowOrTooFastAreNamedWithinTwoSeconds) {
+  for (const double part : {0.75, 1.25}) {
+    const Outcome outcome = After(40, PartOfTheWay(part), 1);
+    EXPECT_GT(outcome.left_out, 10u) << part;
+    EXPECT_LE(outcome.first_s, 2.11) << part;
+    EXPECT_LT(outcome.longest_m, 8) << part;
+  }
+}
+
+// The ground just beyond the car hides what is behind it from the lower beams.
 TEST(WrongMotionsOfACar, FarFromALidarOfManyBeams) {
-  const Outcome outcome = After(20, ThatItStands, 1, 20, SpinningLidar::With64Beams(), 10);
-  EXPECT_GE(outcome.left_out, 13u);
-  EXPECT_LE(outcome.first_s, 0.61);
-  EXPECT_LT(outcome.longest_m, 7.5);
+  const Car far{.speed_mps = 2, .x_m = 4, .y_m = 12};
+  const Outcome outcome = After(25, ThatItStands, 1, 25, SpinningLidar::With64Beams(), far);
+  EXPECT_GE(outcome.left_out, 15u);
+  EXPECT_LE(outcome.first_s, 1.01);
+  EXPECT_LT(outcome.longest_m, 7);
 }
 
 TEST(WrongMotionsOfACar, RightOnesAreNot) {
