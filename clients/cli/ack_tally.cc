@@ -7,6 +7,7 @@ namespace clearway::cli {
 void AckTally::Sent(const Frame& frame) {
   const std::lock_guard lock(mutex_);
   in_flight_.push_back({frame.points_S.size(), frame.stamp});
+  counts_.objects.Add(frame);
 }
 
 FrameSender::OnAck AckTally::OnAck() {

@@ -53,6 +53,7 @@ void Evaluator::Add(std::size_t k, const Frame& frame, const FrameReport& report
   if (unlabelled_) unlabelled_->Add(frame, *scene);
   if (added % kWaysEvery == 0) ways_.Add(*scene, frame.T_W_S.translation);
   AddPoints(report);
+  found_.notes.Add(frame);
   found_.notes.Add(report, frame.stamp);
   AddObjects(*scene);
   found_.scene = std::move(scene);

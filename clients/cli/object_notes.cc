@@ -108,13 +108,18 @@ std::vector<std::string> ObjectNotes::Lines() const {
                                  " estimated from their points, ", bridged_,
                                  " placed by prediction and their points"));
   }
+  if (std::string line = ids_.Line(); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 
 Json ObjectNotes::AsJson() const {
-  Json json = {{"motions_implausible", implausible_}, {"motions_conflicting", conflicting_},
-               {"objects_bridged", bridged_},         {"objects_estimated", estimated_},
-               {"objects_restarted", restarted_},     {"issues", Json::array()}};
+  Json json = {{"motions_implausible", implausible_},
+               {"motions_conflicting", conflicting_},
+               {"objects_bridged", bridged_},
+               {"objects_estimated", estimated_},
+               {"objects_restarted", restarted_},
+               {"objects_without_points", ids_.WithoutPoints()},
+               {"issues", Json::array()}};
   for (const auto& [key, seen] : issues_) {
     json["issues"].push_back({{"object_id", key.first},
                               {"kind", NameOf(key.second)},

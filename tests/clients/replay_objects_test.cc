@@ -30,6 +30,7 @@ std::string Point(double x, double y, double z, std::int16_t label) {
 struct Place {
   double x, y;
   bool labelled = true, in_table = true;
+  int id_in_table = 2;
 };
 
 // 24 frames of a thing of 1 x 1 m in the plane, label 2, before a wall.
@@ -46,7 +47,8 @@ void WriteTrack(const TemporaryFolder& folder, const std::function<Place(int)>& 
       points += Point(at.x - 0.5 + 0.1 * (i / 11), at.y - 0.5 + 0.1 * (i % 11), 0.5, 2);
     }
     if (at.in_table) {
-      absl::StrAppend(&boxes, k, ",2,Car,1,1,1,121,1,0,0,", at.x, ",0,1,0,", at.y, ",0,0,1,0.5\n");
+      absl::StrAppend(&boxes, k, ",", at.id_in_table, ",Car,1,1,1,121,1,0,0,", at.x, ",0,1,0,",
+                      at.y, ",0,0,1,0.5\n");
     }
     folder.Write(absl::StrFormat("points/%04d.bin", k), points);
   }
@@ -153,6 +155,24 @@ TEST_F(ReplayObjects, WithoutMotionsTheyAreEstimatedAndReplaySaysSo) {
   EXPECT_FALSE(objects.empty());
   for (const json& object : objects) {
     EXPECT_LT(object["size_m"][0].get<double>(), 6) << object;
+  }
+}
+
+// Labels and tables that number objects differently, or a recording whose labels are missing.
+TEST_F(ReplayObjects, IdsThatNoPointHasAreNamed) {
+  for (const bool labelled : {true, false}) {
+    TemporaryFolder folder;
+    WriteTrack(folder, [&](int k) { return Place{8 + 0.1 * k, 0, labelled, true, 1002}; });
+    ASSERT_EQ(Clearway({"reset"}).exit_code, 0);
+    const Finished dut = Clearway({"replay", folder.path().string()});
+    EXPECT_EQ(dut.exit_code, 0) << dut.err;
+    EXPECT_THAT(dut.out, HasSubstr("warning: motions and poses are of objects without points (ids "
+                                   "1002), "));
+    EXPECT_THAT(dut.out, HasSubstr(labelled ? "points of others (labels 2): none was used"
+                                            : "and no point has an object's label: none was used"));
+    ASSERT_EQ(Clearway({"reset"}).exit_code, 0);
+    const json summary = Ask({"replay", folder.path().string()});
+    EXPECT_EQ(summary["reports"]["objects_without_points"], json({1002}));
   }
 }
 
