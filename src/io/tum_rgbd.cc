@@ -146,7 +146,7 @@ absl::StatusOr<Tables> ReadTables(const Path& folder, const TumRgbdOptions& opti
   if (auto status = CheckOptions(folder, tables.camera); !status.ok()) return status;
   tables.masked = std::filesystem::exists(folder / "mask.txt", error);
   if (tables.masked) {
-    auto masks = ReadTumImages(folder / "mask.txt", tables.left_out);
+    auto masks = ReadTumMasks(folder / "mask.txt", tables.left_out);
     if (!masks.ok()) return masks.status();
     tables.masks = *std::move(masks);
   }
@@ -191,16 +191,6 @@ Images Associate(const Tables& tables, LidarScans& scans) {
   return images;
 }
 
-absl::Status CheckMaskFiles(const Images& images) {
-  std::error_code error;
-  for (const auto& [number, path] : images.masks) {
-    if (std::filesystem::is_regular_file(path, error)) continue;
-    return absl::NotFoundError(
-        absl::StrCat(path.string(), ": no such file, but mask.txt names it"));
-  }
-  return absl::OkStatus();
-}
-
 std::string Described(const std::string& name, const Tables& tables, const Images& images) {
   std::string text = name;
   if (images.without_pose + images.without_mask > 0) {
@@ -241,7 +231,6 @@ absl::StatusOr<LidarFolder> OpenTumRgbd(const Path& given, const TumRgbdOptions&
                      images->without_pose, " have no pose within 0.02 s in groundtruth.txt, ",
                      images->without_mask, " no mask in mask.txt"));
   }
-  if (auto status = CheckMaskFiles(*images); !status.ok()) return status;
   const Sample sample = FirstOf(*images, tables->camera);
   if (auto status = CheckSize(folder, sample, tables->camera); !status.ok()) return status;
   *scans.left_out = tables->left_out;

@@ -123,6 +123,27 @@ absl::StatusOr<TumImages> ReadTumImages(const Path& path, LeftOut& left_out) {
   return images;
 }
 
+absl::StatusOr<TumImages> ReadTumMasks(const Path& list, LeftOut& left_out) {
+  absl::StatusOr<TumImages> masks = ReadTumImages(list, left_out);
+  if (!masks.ok()) return masks.status();
+  TumImages present;
+  std::error_code error;
+  for (const TumImage& mask : *masks) {
+    if (std::filesystem::is_regular_file(mask.path, error)) {
+      present.push_back(mask);
+    } else {
+      left_out.AddRow(absl::StrCat(list.string(), ", line ", mask.line, ": ", mask.path.string(),
+                                   ": no such file"));
+    }
+  }
+  if (present.empty()) {
+    return absl::NotFoundError(absl::StrCat(list.string(), ": none of its ", masks->size(),
+                                            " images is there; the first is ",
+                                            masks->front().path.string()));
+  }
+  return present;
+}
+
 absl::StatusOr<TumTrack> ReadTumTrack(const Path& path, LeftOut& left_out) {
   TumTrack track;
   const auto visit = [&](Row& row) {

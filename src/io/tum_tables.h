@@ -36,6 +36,8 @@ using TumTrack = std::vector<TumPose>;
 
 // "timestamp filename": depth.txt, mask.txt. Paths begin at the list's folder.
 absl::StatusOr<TumImages> ReadTumImages(const std::filesystem::path& path, LeftOut& left_out);
+// Of mask.txt likewise, but rows whose file is not there are left out. NOT_FOUND if none is.
+absl::StatusOr<TumImages> ReadTumMasks(const std::filesystem::path& list, LeftOut& left_out);
 // "timestamp tx ty tz qx qy qz qw".
 absl::StatusOr<TumTrack> ReadTumTrack(const std::filesystem::path& path, LeftOut& left_out);
 // "timestamp id tx ty tz qx qy qz qw".

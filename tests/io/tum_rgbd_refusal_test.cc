@@ -37,13 +37,23 @@ class TumRgbdRefusal : public TumRgbd {
 
 TEST_F(TumRgbdRefusal, SaysWhatIsMissing) {
   WriteObjects();
-  for (const char* name : {"mask/b.png", "depth/b.png", "groundtruth.txt", "depth.txt"}) {
+  for (const char* name : {"depth/b.png", "groundtruth.txt", "depth.txt"}) {
     std::filesystem::remove(folder_ / name);
     const absl::Status status = Open().status();
     EXPECT_TRUE(absl::IsNotFound(status)) << status;
     EXPECT_THAT(std::string(status.message()), HasSubstr(name));
-    if (name == std::string("mask/b.png")) folder_.Write(name, BytesOf(folder_ / "mask/a.png"));
   }
+}
+
+TEST_F(TumRgbdRefusal, SaysThatMasksAreMissing) {
+  WriteObjects();
+  for (const char* name : {"mask/a.png", "mask/b.png", "mask/c.png"}) {
+    std::filesystem::remove(folder_ / name);
+  }
+  const absl::Status status = Open().status();
+  EXPECT_TRUE(absl::IsNotFound(status)) << status;
+  EXPECT_THAT(std::string(status.message()),
+              HasSubstr("mask.txt: none of its 3 images is there; the first is "));
 }
 
 TEST_F(TumRgbdRefusal, SaysWhatIsWrongWhere) {

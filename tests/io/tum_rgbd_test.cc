@@ -152,6 +152,18 @@ TEST_F(TumRgbd, ImagesWithoutAMaskAreLeftOut) {
               HasSubstr("0 without a pose within 0.02 s, 2 without a mask"));
 }
 
+TEST_F(TumRgbd, OneMaskFileThatIsMissingCostsItsFrame) {
+  WriteObjects();
+  const std::size_t frames = Open()->frames.frame_count;
+  std::filesystem::remove(folder_ / "mask/b.png");
+  const auto dut = Open();
+  ASSERT_TRUE(dut.ok()) << dut.status();
+  EXPECT_EQ(dut->frames.frame_count, frames - 1);
+  EXPECT_EQ(dut->frames.left_out->rows, 1u);
+  EXPECT_EQ(dut->frames.left_out->frames, 1u);
+  EXPECT_THAT(dut->frames.left_out->reasons[0], HasSubstr("mask/b.png: no such file"));
+}
+
 TEST_F(TumRgbd, FewerPixelsAndNearerOnes) {
   EXPECT_EQ(Open({.stride = 2})->frames.read(0)->points_S.size(), 1u);
   EXPECT_EQ(Open({.max_depth_m = 1.5})->frames.read(0)->points_S.size(), 2u);
