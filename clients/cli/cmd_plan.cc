@@ -15,6 +15,7 @@
 #include "cli/left_out_text.h"
 #include "cli/mesh_notes.h"
 #include "cli/message.h"
+#include "cli/scenario_errors.h"
 #include "cli/scenario_file.h"
 #include "cli/server_flags.h"
 #include "cli/text.h"
@@ -205,9 +206,9 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   Delay(status->stamp - Time(), *scenario);
   BorrowedObjects borrowed(client);
   const auto version = borrowed.Add(scenario->objects);
-  if (!version.ok()) return version.status();
+  if (!version.ok()) return InScenario(flags.file, version.status());
   const auto planner = RemotePlanner::For(*connection, scenario->robot);
-  if (!planner.ok()) return planner.status();
+  if (!planner.ok()) return InScenario(flags.file, planner.status());
   std::vector<Found> plans;
   const auto begin = std::chrono::steady_clock::now();
   const auto found = [&](const Plan& plan) {
@@ -222,7 +223,7 @@ absl::Status Run(const Flags& flags, const Terminal& terminal) {
   };
   const auto outcome =
       PlanWith(**planner, client, *scenario, FromSeconds(flags.budget_s), *version, found);
-  if (!outcome.ok()) return outcome.status();
+  if (!outcome.ok()) return InScenario(flags.file, outcome.status());
   if (flags.json) {
     PrintJson(terminal.out, plans, *outcome, *scenario);
   } else if (!plans.empty()) {

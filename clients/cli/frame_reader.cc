@@ -1,6 +1,7 @@
 #include "cli/frame_reader.h"
 
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "cli/message.h"
@@ -14,7 +15,13 @@ void AddKeepGoingFlag(CLI::App* command, bool* keep_going, const std::string& he
 
 std::optional<Frame> FrameReader::Read(std::size_t index) {
   absl::StatusOr<Frame> frame = source_.read(index);
-  if (frame.ok()) return *std::move(frame);
+  if (frame.ok()) {
+    if (!begin_) begin_ = index > 0 ? frame->stamp : Time::min();
+    const bool is_first = frame->stamp == *begin_;
+    std::erase_if(frame->motions,
+                  [&](const ObjectMotion& motion) { return !is_first && motion.from < *begin_; });
+    return *std::move(frame);
+  }
   if (unread_++ == 0) {
     first_ = index;
     why_ = frame.status();

@@ -24,7 +24,8 @@ class FrameReader {
   FrameReader(const FrameSource& source, bool keep_going)
       : source_(source), keep_going_(keep_going) {}
 
-  // None if it cannot be read.
+  // None if it cannot be read. Motions that start before the range that is read, of objects that
+  // come into sight later, are taken out: to the scene they would start before it knows of them.
   std::optional<Frame> Read(std::size_t index);
   bool stopped() const { return unread_ > 0 && !keep_going_; }
   std::size_t unread() const { return unread_; }
@@ -36,6 +37,7 @@ class FrameReader {
  private:
   const FrameSource& source_;
   bool keep_going_;
+  std::optional<Time> begin_;  // of the range; none before the first frame
   std::size_t unread_ = 0;
   std::size_t first_ = 0;  // of those unread
   absl::Status why_;       // the first is

@@ -6,6 +6,7 @@
 #include "clearway/base/number_text.h"
 #include "cli/json_fields.h"
 #include "cli/robot_shape.h"
+#include "cli/text.h"
 
 namespace clearway::cli {
 namespace {
@@ -51,6 +52,12 @@ absl::Status ParseMotion(const JsonFields& fields, const Json& value, GivenObjec
     const std::string path = fields.PathOf(absl::StrCat("future[", object.future.size(), "]"));
     const auto pose = ParseStampedPose(item, path);
     if (!pose.ok()) return pose.status();
+    const Time last = object.future.empty() ? object.pose.stamp : object.future.back().stamp;
+    if (pose->stamp <= last) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          path, ".t_s: is ", Seconds(pose->stamp), "; it must be above ", Seconds(last),
+          object.future.empty() ? ", the time of the object's pose" : ", the one before it"));
+    }
     object.future.push_back(*pose);
   }
   return absl::OkStatus();

@@ -70,7 +70,8 @@ absl::Status CheckSpace(const ConfigurationSpace& space, const Robot& robot) {
   if (arm == nullptr) return absl::OkStatus();
   if (arm->joints.empty() || arm->joints.size() > kMostJoints) {
     return Invalid("arm.joints",
-                   absl::StrCat("are ", arm->joints.size(), "; the limit is ", kMostJoints));
+                   absl::StrCat("are ", arm->joints.size(), "; at least 1 and at most ",
+                                kMostJoints, " are needed"));
   }
   if (arm->joints.size() + 1 != robot.links.size()) {
     return Invalid("arm.joints", absl::StrCat("are ", arm->joints.size(), "; the robot has ",

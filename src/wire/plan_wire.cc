@@ -79,9 +79,6 @@ v1::CheckMotionsRequest OptionsOf(const v1::PlanRequest& proto) {
   return options;
 }
 
-// NaN stays; what is too long is told by Validate.
-Duration Bounded(double seconds) { return FromSeconds(std::clamp(seconds, -1e6, 1e6)); }
-
 }  // namespace
 
 void Write(const PlanTask& task, v1::PlanRequest* proto) {
@@ -116,8 +113,13 @@ absl::StatusOr<PlanTask> ReadPlanTask(const v1::PlanRequest& proto, const Server
   task.start.assign(proto.start().begin(), proto.start().end());
   task.goal.assign(proto.goal().begin(), proto.goal().end());
   task.start_time = read.Stamp("start_ns", true, proto.start_ns());
-  task.time_limit = Bounded(read.Positive("time_limit_s", proto.time_limit_s()));
+  const double limit_s = read.Positive("time_limit_s", proto.time_limit_s());
+  if (limit_s > kMaxTimeLimit_s) {  // no Duration may hold it
+    read.Fail("time_limit_s", absl::StrCat("is ", NumberText(limit_s), "; it must be at most ",
+                                           NumberText(kMaxTimeLimit_s)));
+  }
   if (!read.ok()) return read.status();
+  task.time_limit = FromSeconds(limit_s);
   return task;
 }
 

@@ -126,6 +126,37 @@ TEST_F(CliPlan, AnInterruptedPlanTakesItsObjectsAway) {
   EXPECT_EQ(Ask({"objects"})["objects"], json::array());
 }
 
+// In the file's own words, whether the command line or the server finds it.
+TEST_F(CliPlan, WhatIsWrongInAFileIsNamedAsThere) {
+  std::ifstream stream(std::string(CLEARWAY_SCENARIOS) + "/one_door.json");
+  const json good = json::parse(stream);
+  const TemporaryFolder folder;
+  const auto names = [&](const char* message, auto&& spoil) {
+    json scenario = good;
+    spoil(scenario);
+    folder.Write("bad.json", scenario.dump());
+    const Finished dut = Clearway({"plan", (folder.path() / "bad.json").string()});
+    EXPECT_EQ(dut.exit_code, 1);
+    EXPECT_THAT(dut.err, HasSubstr(std::string("bad.json: ") + message));
+  };
+  names("space.clearance_m", [](json& s) { s["space"]["clearance_m"] = -1; });
+  names("objects[0].velocity_mps", [](json& s) { s["objects"][0]["velocity_mps"] = {2000, 0, 0}; });
+  names("objects[0].pose.position_m", [](json& s) {
+    s["objects"][0]["pose"]["position_m"] = {1e6, 0, 0};
+  });
+  const json pose = {{"position_m", {0, 3.7, 1}}};
+  names(
+      "objects[0].future[0].t_s: is -1.0 s; it must be above 0.0 s, the time of the object's pose",
+      [&](json& s) {
+        s["objects"][0]["future"] = {{{"t_s", -1}, {"pose", pose}}};
+      });
+  names("objects[0].future[1].t_s: is 2.0 s; it must be above 2.0 s, the one before it",
+        [&](json& s) {
+          const json sample = {{"t_s", 2}, {"pose", pose}};
+          s["objects"][0]["future"] = json::array({sample, sample});
+        });
+}
+
 TEST_F(CliPlan, NoPlanSaysWhy) {
   const std::string folder = CLEARWAY_SCENARIOS;
   const Finished taken = Clearway({"plan", folder + "/goal_taken.json", "--budget", "0.1"});

@@ -158,6 +158,16 @@ TEST_F(ReplayObjects, WithoutMotionsTheyAreEstimatedAndReplaySaysSo) {
   }
 }
 
+// Its box of frame 5 lies before the range, and the motion from there is none of the range's.
+TEST_F(ReplayObjects, InARangeNoMotionStartsBeforeIt) {
+  TemporaryFolder folder;
+  WriteTrack(folder, [](int k) { return Hidden(k, 9.6, 0); });
+  const json summary = Ask({"replay", folder.path().string(), "--from", "9"});
+  EXPECT_EQ(summary["reports"]["motions_implausible"], 0) << summary;
+  ExpectAt(10.3, 0);
+  EXPECT_NEAR(Object()["speed_mps"].get<double>(), 1, 1e-6);
+}
+
 // Labels and tables that number objects differently, or a recording whose labels are missing.
 TEST_F(ReplayObjects, IdsThatNoPointHasAreNamed) {
   for (const bool labelled : {true, false}) {

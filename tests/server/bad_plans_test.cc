@@ -77,6 +77,8 @@ TEST_F(BadPlans, WhatIsWrongIsNamed) {
   invalid("goal[0]", [](auto& r) { r.set_goal(0, 0); });
   invalid("start_ns", [](auto& r) { r.set_start_ns(r.start_ns() - 1); });
   invalid("time_limit_s", [](auto& r) { r.set_time_limit_s(0); });
+  invalid("time_limit_s is 1e+09; it must be at most 3600",
+          [](auto& r) { r.set_time_limit_s(1e9); });
   invalid("time_limit_s", [](auto& r) { r.set_time_limit_s(1e300); });
   invalid("time_limit_s", [](auto& r) { r.set_time_limit_s(1); });  // too far for it
   invalid("start_ns", [](auto& r) { r.set_start_ns(kFarthest_ns); });
