@@ -44,7 +44,7 @@ std::string Describe(const ObjectIssue& issue, const std::string& when) {
       return absl::StrCat("motion or pose left out at ", when, ": turns by ", value, " rad (limit ",
                           limit, " rad)");
     case ObjectIssueKind::kMotionTooFar:
-      return absl::StrCat("motion left out at ", when, ": leads to a coordinate of ", value,
+      return absl::StrCat("motion or pose left out at ", when, ": leads to a coordinate of ", value,
                           " m (limit ", limit, " m)");
     case ObjectIssueKind::kMotionConflict:
       return absl::StrCat("motion left out at ", when,

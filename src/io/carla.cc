@@ -37,7 +37,11 @@ struct Scans {
 };
 
 absl::Status ReadPoints(const Scans& scans, const Path& path, Frame& frame) {
-  constexpr PlyProperty kProperties[] = {{"x"}, {"y"}, {"z"}, {"ObjIdx", /*is_index=*/true}};
+  constexpr bool kNoIndex = false, kIndex = true, kMayBeNan = true;  // a lost return
+  constexpr PlyProperty kProperties[] = {{"x", kNoIndex, kMayBeNan},
+                                         {"y", kNoIndex, kMayBeNan},
+                                         {"z", kNoIndex, kMayBeNan},
+                                         {"ObjIdx", kIndex}};
   constexpr std::size_t kWidth = std::size(kProperties);
   const auto values = ReadPlyVertices(path, kProperties);
   if (!values.ok()) return values.status();

@@ -38,7 +38,6 @@ struct Content {
 struct Unused {
   std::size_t without_pose = 0;  // of frames that have no camera pose
   std::size_t without_start = 0;
-  std::size_t too_far_turned = 0;
 };
 
 double Turn_rad(const Pose& pose) {
@@ -67,8 +66,6 @@ std::map<int, std::vector<ObjectMotion>> MotionsOf(const Logs& logs, Unused& unu
       ++unused.without_pose;
     } else if (start == nullptr) {
       ++unused.without_start;
-    } else if (Turn_rad(H_W) > kMaxTurn_rad) {
-      ++unused.too_far_turned;
     } else {
       motions[frame].push_back({id, H_W, start->stamp});
     }
@@ -143,7 +140,6 @@ std::string Described(const std::string& name, const Content& content, const Unu
   add(content.points.unframed_W.size(), "static points of no frame come with the first");
   add(unused.without_pose, "rows of frames without a camera pose are left out");
   add(unused.without_start, "motions that start at no known frame are left out");
-  add(unused.too_far_turned, "motions of more than 0.9 half turns are left out");
   return absl::StrJoin(parts, "; ");
 }
 

@@ -57,14 +57,20 @@ std::optional<ObjectIssue> IssueOf(const ObjectMotion& motion, const FrameLimits
   return ObjectIssue{ObjectIssueKind::kTurnTooLarge, motion.id, turn_rad, kMaxTurn_rad};
 }
 
-std::optional<ObjectIssue> IssueOf(const ObjectPose& pose, const MovingObject& known, Time stamp,
+std::optional<ObjectIssue> TooFar(ObjectId id, const Pose& pose_W, const FrameLimits& limits) {
+  const double reach_m = LargestCoordinate(pose_W);
+  if (reach_m <= limits.max_coordinate_m) return std::nullopt;
+  return ObjectIssue{ObjectIssueKind::kMotionTooFar, id, reach_m, limits.max_coordinate_m};
+}
+
+// `known` is null if the scene does not have the object.
+std::optional<ObjectIssue> IssueOf(const ObjectPose& pose, const MovingObject* known, Time stamp,
                                    const FrameLimits& limits) {
-  if (known.given() || !known.T_B_O) return std::nullopt;
-  const StampedPose& last = known.history.back();
-  const Pose T_W_O = pose.T_W_B * *known.T_B_O;
-  if (const double reach_m = LargestCoordinate(T_W_O); reach_m > limits.max_coordinate_m) {
-    return ObjectIssue{ObjectIssueKind::kMotionTooFar, pose.id, reach_m, limits.max_coordinate_m};
-  }
+  if (const auto issue = TooFar(pose.id, pose.T_W_B, limits)) return issue;
+  if (known == nullptr || known->given() || !known->T_B_O) return std::nullopt;
+  const StampedPose& last = known->history.back();
+  const Pose T_W_O = pose.T_W_B * *known->T_B_O;
+  if (const auto issue = TooFar(pose.id, T_W_O, limits)) return issue;
   return TooFast(pose.id, last.T_W_O.translation, T_W_O.translation,
                  std::chrono::abs(stamp - last.stamp));
 }
@@ -74,7 +80,7 @@ std::optional<ObjectIssue> IssueOf(const ObjectClue& clue, const MovingObject* k
                                    const LabelledCloud& cloud, Time stamp,
                                    const SceneParams& params, const FrameLimits& limits) {
   if (clue.motion == nullptr) {
-    return clue.pose && known ? IssueOf(*clue.pose, *known, stamp, limits) : std::nullopt;
+    return clue.pose ? IssueOf(*clue.pose, known, stamp, limits) : std::nullopt;
   }
   const ObjectMotion& motion = *clue.motion;
   if (const auto issue = IssueOf(motion, limits)) return issue;

@@ -76,6 +76,15 @@ TEST_F(Carla, WithoutActorsAllIsStatic) {
   EXPECT_THAT(dut->frames.description, HasSubstr("no carla_actors.csv: all points are static"));
 }
 
+TEST_F(Carla, LostReturnsMayBeNan) {
+  std::string ply = BytesOf(folder_ / "000120.ply");
+  folder_.Write("000120.ply", absl::StrReplaceAll(ply, {{"9.0000 3.0000 -1.5000", "nan nan nan"}}));
+  const auto frame = Open()->frames.read(0);
+  ASSERT_TRUE(frame.ok()) << frame.status();
+  EXPECT_EQ(frame->points_S.size(), 3u);
+  EXPECT_FALSE(frame->points_S[0].allFinite());
+}
+
 TEST_F(Carla, IdsThatAreNoLabelsAreStatic) {
   folder_.Write("000120.ply", CarlaPly({{{1, 0, 0}, 4'294'967'295U, 20},
                                         {{1, 0, 0}, 2'147'483'648U, 20},

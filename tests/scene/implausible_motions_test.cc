@@ -83,6 +83,24 @@ TEST_F(ImplausibleMotions, AMotionThatLeadsTooFarIsLeftOutAndNamed) {
   EXPECT_EQ(dut_.Publish()->FindObject(2)->t_k(), At(0));
 }
 
+// Whether the scene knows the object or not. The rest of the frame counts.
+TEST_F(ImplausibleMotions, APoseThatIsTooFarIsLeftOutAndNamed) {
+  for (const double far_m : {101.0, 1e9, 1e300}) {
+    dut_.Reset();
+    for (int k = 0; k < 3; ++k) {
+      Frame frame = Showing(0.1 * k, 9);
+      frame.poses.push_back({2, Pose::Translation(0, k == 1 ? 3 : -far_m, 0)});
+      const FrameReport report = Applied(frame);
+      ASSERT_EQ(report.issues.size(), k == 1 ? 0u : 1u) << far_m << " " << k;
+      if (k == 1) continue;
+      EXPECT_EQ(report.issues[0].kind, ObjectIssueKind::kMotionTooFar);
+      EXPECT_EQ(report.issues[0].value, far_m);
+      EXPECT_EQ(report.issues[0].limit, 100);
+    }
+    EXPECT_EQ(dut_.Publish()->FindObject(2)->last_seen, At(0.2));
+  }
+}
+
 // The van drives out of the space that there is; the static points of its frames still count.
 TEST_F(ImplausibleMotions, WhatIsBeyondTheLimitIsLeftOutAlone) {
   for (const bool posed : {false, true}) {
